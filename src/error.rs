@@ -1,0 +1,74 @@
+//! The one error of the input side: what is wrong, where, and what to do.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::spec::Source;
+
+/// Something in a spec or a model is wrong. `Display` is a single paragraph that names the place;
+/// the program prints the same with the source lines.
+#[derive(Debug, Clone, thiserror::Error)]
+pub struct InputError {
+    /// One sentence: what is wrong, with the numbers.
+    pub message: String,
+    /// What was expected or what to do about it.
+    pub help: Option<String>,
+    /// The file the labels point into; `None` where the message names the object itself.
+    pub source_text: Option<Source>,
+    /// Byte ranges with a few words each; the first is the place.
+    pub labels: Vec<(Range<usize>, String)>,
+}
+
+impl InputError {
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), help: None, source_text: None, labels: Vec::new() }
+    }
+
+    /// An error at a place of a spec file.
+    pub fn at(source: &Source, span: Range<usize>, message: impl Into<String>) -> Self {
+        Self { source_text: Some(source.clone()), ..Self::new(message) }.label(span, "here")
+    }
+
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds a place with a word about it; replaces the bare "here" of [`InputError::at`] when it is the same place.
+    pub fn label(mut self, span: Range<usize>, text: impl Into<String>) -> Self {
+        self.labels.retain(|(other, _)| *other != span);
+        self.labels.push((span, text.into()));
+        self
+    }
+
+    /// Ties an error without a place (a model that does not open) to the line of the spec that asked for it.
+    pub fn or_at(self, source: &Source, span: Range<usize>) -> Self {
+        if self.source_text.is_some() {
+            return self;
+        }
+        Self { source_text: Some(source.clone()), ..self }.label(span, "needed here")
+    }
+
+    /// 1-based line of the first label.
+    pub fn line(&self) -> Option<usize> {
+        let (span, _) = self.labels.first()?;
+        Some(self.source_text.as_ref()?.line(span.start))
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(source) = &self.source_text {
+            write!(f, "{}", source.name)?;
+            if let Some(line) = self.line() {
+                write!(f, ":{line}")?;
+            }
+            write!(f, ": ")?;
+        }
+        write!(f, "{}", self.message)?;
+        if let Some(help) = &self.help {
+            write!(f, " ({help})")?;
+        }
+        Ok(())
+    }
+}

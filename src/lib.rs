@@ -1,0 +1,8 @@
+//! Composed 3D magic lenses: ordered depth-interval layers, a priority graph, and an explanation for every pixel.
+#![forbid(unsafe_code)]
+
+mod error;
+pub mod scene;
+pub mod spec;
+
+pub use error::InputError;

@@ -1,0 +1,350 @@
+//! The typed mirror of a lens-spec file (see `SPEC-FORMAT`). Lengths are scene units, angles degrees.
+//!
+//! A value of these types is syntactically right: types, ranges and names of keys have been checked.
+//! What needs the models (node names, bounds) is checked when the scene is opened.
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::{Color, Pattern};
+
+/// The text an error points into.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// How messages name the file.
+    pub name: String,
+    pub text: Arc<str>,
+}
+
+impl Source {
+    /// 1-based line of a byte offset.
+    pub fn line(&self, offset: usize) -> usize {
+        let end = offset.min(self.text.len());
+        1 + self.text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
+    }
+}
+
+/// A value and the bytes of the file that declare it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct At<T> {
+    pub value: T,
+    pub span: Range<usize>,
+}
+
+impl<T> At<T> {
+    pub fn new(value: T, span: Range<usize>) -> Self {
+        Self { value, span }
+    }
+}
+
+/// A whole lens-spec file.
+#[derive(Debug, Clone)]
+pub struct Spec {
+    pub source: Source,
+    pub scene: SceneSpec,
+    pub camera: Option<At<CameraSpec>>,
+    pub image: ImageSpec,
+    pub light: Option<LightSpec>,
+    /// In file order.
+    pub lenses: Vec<LensSpec>,
+    pub overlaps: Vec<OverlapSpec>,
+}
+
+#[derive(Debug, Clone)]
+pub struct SceneSpec {
+    /// Resolved against the spec file's folder.
+    pub file: At<PathBuf>,
+    pub scene: Option<At<SceneChoice>>,
+    pub hide: Vec<At<Pattern>>,
+    pub backfaces: Backfaces,
+    /// In file order; names are unique.
+    pub alternates: Vec<(String, At<PathBuf>)>,
+}
+
+/// Which of a glTF file's scenes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SceneChoice {
+    Name(String),
+    Index(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Backfaces {
+    #[default]
+    Show,
+    AsMaterial,
+}
+
+/// Either placed by hand or a camera node of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CameraSpec {
+    pub place: CameraPlace,
+    pub near: Option<At<f64>>,
+    pub far: Option<At<f64>>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum CameraPlace {
+    /// `None` where the key was left out.
+    Free {
+        eye: Option<[f64; 3]>,
+        target: Option<[f64; 3]>,
+        up: [f64; 3],
+        projection: ProjectionSpec,
+    },
+    Node(At<String>),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ProjectionSpec {
+    /// Vertical field of view, degrees.
+    FovY(f64),
+    /// Height of the picture in scene units.
+    OrthographicHeight(f64),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImageSpec {
+    pub size: [u32; 2],
+    /// 1, 4, 9 or 16.
+    pub samples: u32,
+    /// `None` is transparent.
+    pub background: Option<Color>,
+}
+
+impl Default for ImageSpec {
+    fn default() -> Self {
+        Self { size: [1280, 720], samples: 4, background: Some(Color::rgb(0x1e, 0x22, 0x27)) }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct LightSpec {
+    pub ambient: f32,
+    pub directional: Vec<DirectionalSpec>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct DirectionalSpec {
+    /// The way the light travels; any length but zero.
+    pub direction: [f64; 3],
+    pub color: Color,
+    pub intensity: f32,
+}
+
+#[derive(Debug, Clone)]
+pub struct LensSpec {
+    pub name: At<String>,
+    pub enabled: bool,
+    pub shape: At<Shape>,
+    pub attach: At<Attach>,
+    pub translation: [f64; 3],
+    pub rotation: Rotation,
+    pub scale: [f64; 3],
+    /// The first listed acts first.
+    pub filters: Vec<At<Filter>>,
+    pub over: Vec<At<Pattern>>,
+    pub under: Vec<At<Pattern>>,
+    pub hides: Vec<At<Pattern>>,
+    pub overlap: OverlapMode,
+    pub priority: i64,
+    pub by: By,
+    pub only: Matches,
+    pub except: Matches,
+    pub glass: Option<Glass>,
+}
+
+/// Name patterns for nodes and materials.
+#[derive(Debug, Clone, Default)]
+pub struct Matches {
+    pub nodes: Vec<At<Pattern>>,
+    pub materials: Vec<At<Pattern>>,
+}
+
+impl Matches {
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty() && self.materials.is_empty()
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Attach {
+    Scene,
+    Camera,
+    Node(String),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OverlapMode {
+    Stack,
+    Override,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum By {
+    Pixel,
+    Object,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rotation {
+    /// Degrees, intrinsic X then Y then Z.
+    Euler([f64; 3]),
+    /// `[x, y, z, w]`, of any length but zero.
+    Quaternion([f64; 4]),
+}
+
+impl Default for Rotation {
+    fn default() -> Self {
+        Rotation::Euler([0.0; 3])
+    }
+}
+
+/// A lens volume in its own space. Sizes are positive and finite.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    Sphere {
+        center: [f64; 3],
+        radius: f64,
+    },
+    Ellipsoid {
+        center: [f64; 3],
+        radii: [f64; 3],
+        rotation: Rotation,
+    },
+    Box {
+        center: [f64; 3],
+        size: [f64; 3],
+        rotation: Rotation,
+    },
+    Cylinder {
+        from: [f64; 3],
+        to: [f64; 3],
+        radius: f64,
+    },
+    /// At most one radius is zero.
+    Cone {
+        from: [f64; 3],
+        to: [f64; 3],
+        from_radius: f64,
+        to_radius: f64,
+    },
+    Capsule {
+        from: [f64; 3],
+        to: [f64; 3],
+        radius: f64,
+    },
+    /// `[nx, ny, nz, d]`: the points with `n·p <= d` for all.
+    Polytope {
+        planes: Vec<[f64; 4]>,
+    },
+    Hull {
+        points: Vec<[f64; 3]>,
+    },
+    Flat {
+        corners: Vec<[f64; 3]>,
+        depth: Option<f64>,
+    },
+}
+
+/// How a lens surface is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Glass {
+    pub color: Color,
+    /// Seen face on.
+    pub opacity: f32,
+    /// What is added where the surface is seen edge on.
+    pub rim: f32,
+    /// Width of the silhouette line in pixels; 0 draws none.
+    pub outline: f32,
+}
+
+impl Default for Glass {
+    fn default() -> Self {
+        Self { color: Color::rgb(0x9f, 0xd8, 0xff), opacity: 0.06, rim: 0.5, outline: 1.5 }
+    }
+}
+
+/// One filter with all its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Filter {
+    /// `width` in pixels; `color` `None`: the surface's own; `fill`: opacity between the wires.
+    Wireframe {
+        width: f32,
+        color: Option<Color>,
+        fill: f32,
+    },
+    /// Removes what matches; both lists empty: everything.
+    Erase {
+        nodes: Vec<At<Pattern>>,
+        materials: Vec<At<Pattern>>,
+    },
+    Show(ShowWhat),
+    Opacity {
+        value: f32,
+    },
+    Tint {
+        color: Color,
+        amount: f32,
+    },
+    Grayscale {
+        amount: f32,
+    },
+    Invert {
+        amount: f32,
+    },
+    /// `color` `None`: the surface's own.
+    Unlit {
+        color: Option<Color>,
+    },
+    /// What is `None` stays the surface's own.
+    Material {
+        color: Option<Color>,
+        metallic: Option<f32>,
+        roughness: Option<f32>,
+        emissive: Option<Color>,
+    },
+    /// `scale`: how often the texture repeats over the unit of its mapping.
+    Texture {
+        file: At<PathBuf>,
+        uv: UvMapping,
+        scale: [f32; 2],
+    },
+    Normals,
+}
+
+/// What `show` puts in place of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ShowWhat {
+    /// A name under `[scene.alternates]`.
+    Alternate(At<String>),
+    Nodes(Vec<At<Pattern>>),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UvMapping {
+    Mesh,
+    PlanarX,
+    PlanarY,
+    PlanarZ,
+    Box,
+    Sphere,
+}
+
+/// An explicit style for chosen overlaps.
+#[derive(Debug, Clone)]
+pub struct OverlapSpec {
+    pub when: At<Condition>,
+    pub filters: Vec<At<Filter>>,
+}
+
+/// `when` of an overlap rule: a boolean expression over lens names and patterns.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Condition {
+    /// Holds if any lens that matches contains the point.
+    Lens(At<Pattern>),
+    Not(Box<Condition>),
+    And(Box<Condition>, Box<Condition>),
+    Or(Box<Condition>, Box<Condition>),
+}
