@@ -6,3 +6,7 @@ pub mod scene;
 pub mod spec;
 
 pub use error::InputError;
+pub mod appearance;
+pub mod lens;
+pub mod plan;
+pub mod view;

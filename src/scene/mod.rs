@@ -1,7 +1,13 @@
-//! A model as both backends see it: glTF data, checked and made plain.
+//! What is seen: the models of a spec, checked and made plain, with their materials and textures ready to use.
 //!
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
+mod materials;
 mod model;
+mod open;
+mod textures;
 
+pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
+pub use open::Scene;
+pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet};

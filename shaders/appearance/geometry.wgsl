@@ -1,0 +1,93 @@
+// Rays, triangles and what a pixel spans on them.
+
+// A view ray and how it changes by one pixel to the right (x) and down (y). The direction has length one
+// along the camera's forward axis, so a parameter along it is a depth.
+struct PixelRay {
+    origin: vec3f,
+    direction: vec3f,
+    origin_dx: vec3f,
+    origin_dy: vec3f,
+    direction_dx: vec3f,
+    direction_dy: vec3f,
+}
+
+struct TriangleHit {
+    // Barycentric coordinates of the ray's hit with the triangle's plane.
+    weights: vec3f,
+    depth: f32,
+}
+
+// Where a ray meets the plane of a triangle. The caller knows that it does.
+fn triangle_hit(origin: vec3f, direction: vec3f, a: vec3f, b: vec3f, c: vec3f) -> TriangleHit {
+    let ab = b - a;
+    let ac = c - a;
+    let p = cross(direction, ac);
+    let det = dot(ab, p);
+    let inverse = 1.0 / select(det, 1e-30, abs(det) < 1e-30);
+    let from_a = origin - a;
+    let q = cross(from_a, ab);
+    let u = dot(from_a, p) * inverse;
+    let v = dot(direction, q) * inverse;
+    return TriangleHit(vec3f(1.0 - u - v, u, v), dot(ac, q) * inverse);
+}
+
+// Distance in pixels from a pixel's ray to the line through `a` and `b` as the picture shows it.
+// The line and the eye span a plane; its distance function is linear over the pixels, so this holds for
+// edges that pass behind the eye, too.
+fn edge_distance(ray: PixelRay, a: vec3f, b: vec3f) -> f32 {
+    let value = edge_function(ray.origin, ray.direction, a, b);
+    let dx = edge_function(ray.origin + ray.origin_dx, ray.direction + ray.direction_dx, a, b) - value;
+    let dy = edge_function(ray.origin + ray.origin_dy, ray.direction + ray.direction_dy, a, b) - value;
+    return abs(value) / max(length(vec2f(dx, dy)), 1e-30);
+}
+
+fn edge_function(origin: vec3f, direction: vec3f, a: vec3f, b: vec3f) -> f32 {
+    return dot(cross(a - origin, b - a), direction);
+}
+
+// Distance in pixels to the nearest edge of a triangle.
+fn wire_distance(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f) -> f32 {
+    return min(edge_distance(ray, a, b), min(edge_distance(ray, b, c), edge_distance(ray, c, a)));
+}
+
+// How many units of `uv` a pixel spans: the larger of its two sides, on the plane of the triangle.
+fn uv_footprint(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f, uv_a: vec2f, uv_b: vec2f, uv_c: vec2f, size: vec2f) -> f32 {
+    let here = triangle_hit(ray.origin, ray.direction, a, b, c).weights;
+    let right = triangle_hit(ray.origin + ray.origin_dx, ray.direction + ray.direction_dx, a, b, c).weights - here;
+    let down = triangle_hit(ray.origin + ray.origin_dy, ray.direction + ray.direction_dy, a, b, c).weights - here;
+    let dx = (uv_a * right.x + uv_b * right.y + uv_c * right.z) * size;
+    let dy = (uv_a * down.x + uv_b * down.y + uv_c * down.z) * size;
+    return max(length(dx), length(dy));
+}
+
+const UV_MESH: u32 = 0u;
+const UV_PLANAR_X: u32 = 1u;
+const UV_PLANAR_Y: u32 = 2u;
+const UV_PLANAR_Z: u32 = 3u;
+const UV_BOX: u32 = 4u;
+const UV_SPHERE: u32 = 5u;
+
+// Texture coordinates of a projection, for a position mapped to 0..1 over the scene's bounds by its longest
+// side. `v` runs down the image, as in glTF.
+fn projected_uv(mapping: u32, p: vec3f, normal: vec3f) -> vec2f {
+    var axis = mapping;
+    if mapping == UV_BOX {
+        let n = abs(normal);
+        axis = select(select(UV_PLANAR_Z, UV_PLANAR_Y, n.y >= n.z), UV_PLANAR_X, n.x >= n.y && n.x >= n.z);
+    }
+    switch axis {
+        case UV_PLANAR_X: {
+            return vec2f(1.0 - p.z, 1.0 - p.y);
+        }
+        case UV_PLANAR_Y: {
+            return vec2f(p.x, p.z);
+        }
+        case UV_PLANAR_Z: {
+            return vec2f(p.x, 1.0 - p.y);
+        }
+        default: {
+            let d = normalize(p - vec3f(0.5) + vec3f(0.0, 1e-9, 0.0));
+            return vec2f(0.5 + atan2(d.x, d.z) * 0.15915494, acos(clamp(d.y, -1.0, 1.0)) * 0.31830987);
+        }
+    }
+}

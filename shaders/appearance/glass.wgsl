@@ -1,0 +1,49 @@
+// The drawn surface of a lens.
+
+// Twin of `plan::GlassRecord`.
+struct Glass {
+    // Linear light; alpha multiplies everything.
+    color: vec4f,
+    opacity: f32,
+    rim: f32,
+    // Pixels.
+    outline: f32,
+    pad: f32,
+}
+
+// Opacity of a lens surface seen at the cosine `facing`, `silhouette` pixels inside its outline.
+fn glass_opacity(glass: Glass, facing: f32, silhouette: f32) -> f32 {
+    let edge_on = 1.0 - clamp(facing, 0.0, 1.0);
+    let body = glass.opacity + glass.rim * edge_on * edge_on * edge_on * edge_on;
+    var line = 0.0;
+    if glass.outline > 0.0 {
+        line = clamp(glass.outline + 0.5 - silhouette, 0.0, 1.0) * clamp(glass.outline, 0.0, 1.0);
+    }
+    return clamp(max(body, 0.85 * line) * glass.color.a, 0.0, 1.0);
+}
+
+// Gradient over the pixels of 1/depth on the plane through `p` with normal `n` (both relative to the ray).
+fn inverse_depth_gradient(ray: PixelRay, n: vec3f, depth: f32) -> vec2f {
+    let facing = dot(n, ray.direction);
+    let slope = 1.0 / select(facing, 1e-20, abs(facing) < 1e-20);
+    let along_x = dot(n, ray.direction_dx * depth + ray.origin_dx) * slope;
+    let along_y = dot(n, ray.direction_dy * depth + ray.origin_dy) * slope;
+    // d(depth) = -along; d(1/depth) = -d(depth)/depth^2, kept as a change of depth over depth^2.
+    return vec2f(along_x, along_y) / (depth * depth);
+}
+
+// Pixels from the silhouette of a convex volume, to first order: where the entry and the exit meet.
+// The inverse depths of a plane are linear over the picture; where entry and exit lie on one smooth
+// surface their difference falls like a square root, which doubles the distance.
+fn silhouette_distance(ray: PixelRay, entry: f32, entry_normal: vec3f, exit: f32, exit_normal: vec3f, smooth_join: u32) -> f32 {
+    // Orthographic depths may be of any sign; only differences count there.
+    let perspective = dot(ray.direction_dx, ray.direction_dx) > 0.0;
+    var gap = exit - entry;
+    var slope = inverse_depth_gradient(ray, entry_normal, 1.0) - inverse_depth_gradient(ray, exit_normal, 1.0);
+    if perspective {
+        gap = 1.0 / max(entry, 1e-20) - 1.0 / max(exit, 1e-20);
+        slope = inverse_depth_gradient(ray, entry_normal, entry) - inverse_depth_gradient(ray, exit_normal, exit);
+    }
+    let distance = gap / max(length(slope), 1e-20);
+    return select(distance, 0.5 * distance, smooth_join != 0u);
+}

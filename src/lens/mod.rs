@@ -1,0 +1,12 @@
+//! Lens volumes: convex sets in world space, and where rays cross them.
+
+mod build;
+mod form;
+mod halfspaces;
+mod hull;
+mod volume;
+
+pub use build::{Placement, build_volume};
+pub use form::{Crossing, Form, Span};
+pub use halfspaces::{Plane, Polyhedron};
+pub use volume::{Interval, PixelRect, Volume};

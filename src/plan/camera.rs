@@ -1,0 +1,163 @@
+//! From `[camera]` to a view.
+
+use glam::DVec3;
+
+use crate::InputError;
+use crate::lens::Volume;
+use crate::scene::{Aabb, Camera, Scene};
+use crate::spec::{CameraPlace, ProjectionSpec, Spec};
+use crate::view::{Projection, View};
+
+/// Where the default camera looks from, seen from the centre of the bounds.
+const DEFAULT_DIRECTION: DVec3 = DVec3::new(1.0, 0.7, 1.3);
+const DEFAULT_FOV_Y: f64 = 45.0;
+/// A fitted near plane is never closer than this share of the far one.
+const NEAR_SHARE: f64 = 1e-6;
+
+/// The camera of a spec; near and far are placeholders until [`fit_depths`].
+pub(super) fn place(spec: &Spec, scene: &Scene) -> Result<View, InputError> {
+    let bounds = scene.models[0].bounds();
+    let size = spec.image.size;
+    let free = |eye, target, up, projection| free_view(size, eye, target, up, projection, &bounds);
+    let Some(camera) = &spec.camera else {
+        return free(None, None, DVec3::Y, ProjectionSpec::FovY(DEFAULT_FOV_Y)).map_err(InputError::new);
+    };
+    let at = |message: String| InputError::at(&spec.source, camera.span.clone(), message);
+    match &camera.value.place {
+        CameraPlace::Free { eye, target, up, projection } => {
+            free(eye.map(DVec3::from_array), target.map(DVec3::from_array), DVec3::from_array(*up), *projection)
+                .map_err(at)
+        }
+        CameraPlace::Node(name) => node_view(size, &name.value, scene)
+            .map_err(|(message, help)| InputError::at(&spec.source, name.span.clone(), message).help(help)),
+    }
+}
+
+fn free_view(
+    size: [u32; 2],
+    eye: Option<DVec3>,
+    target: Option<DVec3>,
+    up: DVec3,
+    projection: ProjectionSpec,
+    bounds: &Aabb,
+) -> Result<View, String> {
+    let bounds = if bounds.is_empty() { Aabb { min: DVec3::NEG_ONE, max: DVec3::ONE } } else { *bounds };
+    let target = target.unwrap_or(bounds.center());
+    let forward = eye.map_or(-DEFAULT_DIRECTION, |eye| target - eye).normalize_or_zero();
+    let right = forward.cross(up).normalize_or_zero();
+    if forward == DVec3::ZERO || right == DVec3::ZERO {
+        return Err(
+            "the camera needs an `eye` apart from its `target`, and an `up` across the line between them".into()
+        );
+    }
+    let projection = match projection {
+        ProjectionSpec::FovY(degrees) => Projection::Perspective { tan_half_y: (degrees.to_radians() * 0.5).tan() },
+        ProjectionSpec::OrthographicHeight(height) => Projection::Orthographic { half_height: height * 0.5 },
+    };
+    let mut view =
+        View { eye: target, right, up: right.cross(forward), forward, projection, near: 0.0, far: 1.0, size };
+    view.eye = eye.unwrap_or_else(|| target - forward * fitting_distance(&view, &bounds));
+    Ok(view)
+}
+
+/// How far back from the target the eye of a view must be for the bounds to just fit the picture.
+fn fitting_distance(view: &View, bounds: &Aabb) -> f64 {
+    let aspect = f64::from(view.size[0]) / f64::from(view.size[1]);
+    let tan_y = match view.projection {
+        Projection::Perspective { tan_half_y } => tan_half_y,
+        Projection::Orthographic { .. } => return bounds.size().length(),
+    };
+    let needed = |corner: DVec3| {
+        let offset = corner - view.eye;
+        let across = (offset.dot(view.right).abs() / (tan_y * aspect)).max(offset.dot(view.up).abs() / tan_y);
+        across - offset.dot(view.forward)
+    };
+    bounds.corners().into_iter().map(needed).fold(1e-9, f64::max) * 1.03
+}
+
+fn node_view(size: [u32; 2], name: &str, scene: &Scene) -> Result<View, (String, String)> {
+    let model = &scene.models[0];
+    let has_camera = |i: &usize| model.nodes[*i].camera.is_some();
+    let known = || {
+        let names: Vec<String> =
+            (0..model.nodes.len()).filter(has_camera).map(|i| format!("`{}`", model.nodes[i].name)).collect();
+        if names.is_empty() {
+            "the file has no cameras".into()
+        } else {
+            format!("cameras of the file: {}", names.join(", "))
+        }
+    };
+    let found: Vec<usize> =
+        (0..model.nodes.len()).filter(|i| model.nodes[*i].name == name).filter(has_camera).collect();
+    let [index] = found[..] else {
+        let problem = if found.is_empty() { "no camera node" } else { "several camera nodes" };
+        return Err((format!("{problem} of `{}` is named `{name}`", model.name), known()));
+    };
+    let node = &model.nodes[index];
+    let axes = node.world_from_local.matrix3;
+    let forward = (-axes.z_axis).normalize_or_zero();
+    let right = forward.cross(axes.y_axis).normalize_or_zero();
+    if forward == DVec3::ZERO || right == DVec3::ZERO {
+        return Err((format!("the camera node `{name}` has a scale of zero"), known()));
+    }
+    let camera = model.cameras[node.camera.unwrap_or_default()];
+    let (projection, near, far) = match camera {
+        Camera::Perspective { fov_y, near, far } => {
+            (Projection::Perspective { tan_half_y: (fov_y * 0.5).tan() }, near, far.unwrap_or(f64::INFINITY))
+        }
+        Camera::Orthographic { half_height, near, far } => (Projection::Orthographic { half_height }, near, far),
+    };
+    let eye = node.world_from_local.translation;
+    Ok(View { eye, right, up: right.cross(forward), forward, projection, near, far, size })
+}
+
+/// Sets near and far: as given, else as the file's camera has them, else so that nothing in front of the eye is cut.
+pub(super) fn fit_depths(
+    view: &mut View,
+    spec: &Spec,
+    scene: &Scene,
+    volumes: &[Option<Volume>],
+) -> Result<(), InputError> {
+    let camera = spec.camera.as_ref();
+    let (given_near, given_far) = camera
+        .map_or((None, None), |c| (c.value.near.as_ref().map(|n| n.value), c.value.far.as_ref().map(|f| f.value)));
+    let from_file = camera.is_some_and(|c| matches!(c.value.place, CameraPlace::Node(_)));
+    let (fitted_near, fitted_far) = fitted(view, scene, volumes);
+    let (near, far) = if from_file { (view.near, view.far) } else { (fitted_near, fitted_far) };
+    view.near = given_near.unwrap_or(near);
+    view.far = given_far.unwrap_or(if far.is_finite() { far } else { fitted_far.max(view.near * 2.0) });
+    // A plane that was given moves the fitted one out of its way.
+    if view.near >= view.far {
+        match (given_near, given_far) {
+            (Some(near), None) => view.far = near + near.abs().max(1.0),
+            (None, Some(far)) => {
+                view.near = if view.is_perspective() { far * NEAR_SHARE } else { far - far.abs().max(1.0) }
+            }
+            _ => {
+                let message = format!("near ({}) must be smaller than far ({})", view.near, view.far);
+                let span = camera.map_or(0..0, |c| c.span.clone());
+                return Err(InputError::at(&spec.source, span, message));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn fitted(view: &View, scene: &Scene, volumes: &[Option<Volume>]) -> (f64, f64) {
+    let hulls = volumes.iter().flatten().flat_map(|v| v.hull.iter().copied());
+    let models = scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty()).flat_map(|b| b.corners());
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for depth in models.chain(hulls).map(|p| view.depth(p)) {
+        low = low.min(depth);
+        high = high.max(depth);
+    }
+    if low > high {
+        (low, high) = (0.0, 1.0);
+    }
+    let margin = 0.01 * (high - low).max(1e-6 * high.abs()).max(1e-9);
+    if !view.is_perspective() {
+        return (low - margin, high + margin);
+    }
+    let far = if high > 0.0 { high + margin } else { 1.0 };
+    ((low - margin).max(far * NEAR_SHARE), far)
+}

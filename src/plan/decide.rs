@@ -1,0 +1,125 @@
+//! Why one lens is above another, and whether it matters.
+
+use super::Plan;
+use crate::spec::{Filter, Spec};
+
+/// What decided that one lens is below another.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reason {
+    /// A chain of declared edges: `(key, line, below, above)` each, by names.
+    Declared(Vec<(&'static str, usize, String, String)>),
+    /// The lower has the lower priority.
+    Priority(i64, i64),
+    /// Both are flat and the lower is farther from the eye.
+    Farther(f64, f64),
+    /// The one above had to wait for a lens that it is declared to be above, by name.
+    Waited(String),
+    /// Nothing but their order in the file.
+    FileOrder,
+}
+
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Reason::Declared(chain) => {
+                let edges: Vec<String> = chain
+                    .iter()
+                    .map(|(key, line, below, above)| format!("`{key}` in line {line} puts {below} below {above}"))
+                    .collect();
+                f.write_str(&edges.join(", "))
+            }
+            Reason::Priority(below, above) => write!(f, "priority {below} is lower than {above}"),
+            Reason::Farther(below, above) => {
+                write!(f, "flat, and farther from the eye ({below:.3} against {above:.3})")
+            }
+            Reason::Waited(name) => write!(f, "the upper one had to wait for {name}"),
+            Reason::FileOrder => f.write_str("only the order of the file"),
+        }
+    }
+}
+
+impl Plan {
+    /// Why the lens of rank `below` is below the lens of rank `above`.
+    pub fn reason(&self, spec: &Spec, below: usize, above: usize) -> Reason {
+        let (low, high) = (&self.lenses[below], &self.lenses[above]);
+        let name = |index: usize| spec.lenses[index].name.value.clone();
+        if let Some(chain) = self.graph.chain(low.index, high.index) {
+            let edge = |(a, b, declared): (usize, usize, &super::Declared)| {
+                (declared.key.name(), spec.source.line(declared.span.start), name(a), name(b))
+            };
+            return Reason::Declared(chain.into_iter().map(edge).collect());
+        }
+        let (a, b) = (self.ranks[low.index], self.ranks[high.index]);
+        // The greedy choice took the lower first; had the upper been ready, would it have gone first?
+        let upper_waited = (below..above)
+            .rev()
+            .map(|rank| self.lenses[rank].index)
+            .find(|between| self.graph.chain(*between, high.index).is_some());
+        if let Some(between) = upper_waited {
+            return Reason::Waited(name(between));
+        }
+        if a.priority != b.priority {
+            return Reason::Priority(a.priority, b.priority);
+        }
+        match (a.flat, b.flat) {
+            (Some(far), Some(near)) if far != near => Reason::Farther(far, near),
+            _ => Reason::FileOrder,
+        }
+    }
+}
+
+/// Whether two lenses' filters make the same picture in either order.
+pub fn commute(a: &super::Lens, b: &super::Lens) -> bool {
+    // Who is hidden depends on who is above.
+    if a.overrides || b.overrides {
+        return false;
+    }
+    a.filters.iter().all(|f| b.filters.iter().all(|g| filters_commute(f, g)))
+}
+
+/// What a filter writes; two that write the same thing differently do not commute.
+#[derive(PartialEq, Clone, Copy)]
+enum Writes {
+    /// Takes away; in any order the same is left.
+    Removal,
+    /// Puts other content in place.
+    Content,
+    /// A factor; products commute.
+    Factor,
+    /// The base colour or the other material values.
+    Base,
+    /// The lit colour.
+    Lit,
+    /// Wires: their coverages multiply, but the upper wire's colour wins.
+    Wires,
+    /// Switches lighting off and leaves all else.
+    Flag,
+}
+
+fn writes(filter: &Filter) -> Writes {
+    match filter {
+        Filter::Erase { .. } => Writes::Removal,
+        Filter::Show(_) => Writes::Content,
+        Filter::Opacity { .. } => Writes::Factor,
+        Filter::Unlit { color: None } => Writes::Flag,
+        Filter::Unlit { .. } | Filter::Material { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Base,
+        Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } => Writes::Lit,
+        Filter::Wireframe { .. } => Writes::Wires,
+    }
+}
+
+fn filters_commute(f: &Filter, g: &Filter) -> bool {
+    match (writes(f), writes(g)) {
+        (Writes::Content, Writes::Removal) | (Writes::Removal, Writes::Content) => false,
+        (Writes::Wires, Writes::Wires) => wire_color(f) == wire_color(g),
+        (a, b) if a == b && matches!(a, Writes::Content | Writes::Base | Writes::Lit) => f == g,
+        _ => true,
+    }
+}
+
+fn wire_color(filter: &Filter) -> Option<crate::spec::Color> {
+    match filter {
+        Filter::Wireframe { color, .. } => *color,
+        _ => None,
+    }
+}

@@ -1,0 +1,226 @@
+//! What can be drawn, and what each lens means to it.
+
+use super::{Lens, LensSet};
+use crate::InputError;
+use crate::scene::{Aabb, Model, Scene};
+use crate::spec::{At, By, Filter, LensSpec, Matches, Pattern, ShowWhat, Spec};
+
+/// Something that a picture may show: number 0 is the scene, the others are named by `show`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Content {
+    /// Into [`Scene::models`].
+    pub model: usize,
+    /// Patterns of the nodes it has; `None`: what the model draws.
+    pub nodes: Option<Vec<Pattern>>,
+}
+
+/// One primitive of one node of one content.
+#[derive(Debug, Clone)]
+pub struct Item {
+    pub content: usize,
+    /// Into [`Scene::models`].
+    pub model: usize,
+    pub node: usize,
+    pub mesh: usize,
+    pub primitive: usize,
+    /// Into [`Scene::materials`].
+    pub material: usize,
+    /// The number of its first triangle among all items': the key that decides ties.
+    pub first_triangle: u32,
+    pub triangles: u32,
+    /// World space, tight.
+    pub bounds: Aabb,
+    /// Its material may be less than opaque.
+    pub translucent: bool,
+    /// The lenses that apply to it by `only` and `except`.
+    pub scope: LensSet,
+    /// Lenses with `by = "object"` whose volume holds its node.
+    pub object: LensSet,
+    /// Lenses that bring this content in.
+    pub shown_by: LensSet,
+    /// Lenses that take it away where they act: they erase it or show something else.
+    pub removed_by: LensSet,
+}
+
+impl Item {
+    pub fn is_alternate(&self) -> bool {
+        self.content != 0
+    }
+}
+
+pub(super) fn collect(
+    spec: &Spec,
+    scene: &Scene,
+    order: &[usize],
+    lenses: &[Lens],
+) -> Result<(Vec<Content>, Vec<Item>), InputError> {
+    let contents = contents(spec, scene)?;
+    let mut items: Vec<Item> = Vec::new();
+    let mut first_triangle: u64 = 0;
+    for (content_index, content) in contents.iter().enumerate() {
+        let model = &scene.models[content.model];
+        for node in 0..model.nodes.len() {
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_part(spec, model, content_index, content, node))
+            else {
+                continue;
+            };
+            let center = model.node_bounds(node).center();
+            for (index, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
+                if primitive.triangles.is_empty() {
+                    continue;
+                }
+                let material = scene.material_base[content.model] + primitive.material;
+                let mut item = Item {
+                    content: content_index,
+                    model: content.model,
+                    node,
+                    mesh,
+                    primitive: index,
+                    material,
+                    first_triangle: first_triangle as u32,
+                    triangles: primitive.triangles.len() as u32,
+                    bounds: primitive.bounds(&model.nodes[node].world_from_local),
+                    translucent: scene.materials[material].may_be_translucent(),
+                    scope: LensSet::EMPTY,
+                    object: LensSet::EMPTY,
+                    shown_by: LensSet::EMPTY,
+                    removed_by: LensSet::EMPTY,
+                };
+                let subject = Subject { model, node, material: &model.materials[primitive.material].name };
+                for (rank, lens) in lenses.iter().enumerate() {
+                    let lens_spec = &spec.lenses[order[rank]];
+                    relate(&mut item, rank, lens, lens_spec, &subject, &contents, scene);
+                    if lens.by == By::Object && lens.volume.contains(center) {
+                        item.object.insert(rank);
+                    }
+                }
+                first_triangle += u64::from(item.triangles);
+                items.push(item);
+            }
+        }
+    }
+    if first_triangle >= u64::from(u32::MAX) {
+        let message = format!(
+            "the scene and its alternates draw {first_triangle} triangles, and at most {} can be told apart",
+            u32::MAX - 1
+        );
+        return Err(InputError::new(message));
+    }
+    Ok((contents, items))
+}
+
+/// Sets what one lens means to one item.
+fn relate(
+    item: &mut Item,
+    rank: usize,
+    lens: &Lens,
+    spec: &LensSpec,
+    subject: &Subject,
+    contents: &[Content],
+    scene: &Scene,
+) {
+    if (spec.only.is_empty() || subject.is_in(&spec.only)) && !subject.is_in(&spec.except) {
+        item.scope.insert(rank);
+    }
+    let last_show = lens.filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
+    let erases = |filters: &[Filter]| {
+        filters.iter().any(|f| match f {
+            Filter::Erase { nodes, materials } => {
+                (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials)
+            }
+            _ => false,
+        })
+    };
+    let Some(show) = last_show else {
+        if erases(&lens.filters) {
+            item.removed_by.insert(rank);
+        }
+        return;
+    };
+    let Filter::Show(what) = &lens.filters[show] else { return };
+    let brings_in = contents.iter().position(|c| *c == content(what, scene)) == Some(item.content);
+    if brings_in && !erases(&lens.filters[show + 1..]) {
+        item.shown_by.insert(rank);
+    }
+    // Whatever else is in the lens's scope makes room for what it shows.
+    item.removed_by.insert(rank);
+}
+
+fn content(what: &ShowWhat, scene: &Scene) -> Content {
+    match what {
+        ShowWhat::Alternate(name) => Content {
+            model: 1 + scene.alternates.iter().position(|a| *a == name.value).unwrap_or_default(),
+            nodes: None,
+        },
+        ShowWhat::Nodes(patterns) => {
+            Content { model: 0, nodes: Some(patterns.iter().map(|p| p.value.clone()).collect()) }
+        }
+    }
+}
+
+/// The scene, then what the enabled lenses show: alternates in their order, then node lists as they come.
+fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
+    let mut contents = vec![Content { model: 0, nodes: None }];
+    let shows = || spec.lenses.iter().filter(|l| l.enabled).flat_map(|l| &l.filters);
+    let mut shown: Vec<Content> = Vec::new();
+    for filter in shows() {
+        let Filter::Show(what) = &filter.value else { continue };
+        if let ShowWhat::Nodes(patterns) = what {
+            check_shown_nodes(spec, &scene.models[0], patterns)?;
+        }
+        shown.push(content(what, scene));
+    }
+    shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
+    for content in shown {
+        if !contents.contains(&content) || (content.nodes.is_none() && content.model == 0) {
+            contents.push(content);
+        }
+    }
+    Ok(contents)
+}
+
+fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Result<(), InputError> {
+    for pattern in patterns {
+        if !(0..model.nodes.len()).any(|n| model.node_matches(n, &pattern.value)) {
+            let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
+            return Err(InputError::at(&spec.source, pattern.span.clone(), message)
+                .help(nearest_node_name(model, &pattern.value.0)));
+        }
+    }
+    Ok(())
+}
+
+/// What to write instead of a node name that is not there.
+pub(super) fn nearest_node_name(model: &Model, name: &str) -> String {
+    let names = model.nodes.iter().map(|n| n.name.as_str()).filter(|n| !n.is_empty());
+    match names.map(|n| (strsim::jaro_winkler(n, name), n)).max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((score, nearest)) if score > 0.8 => format!("did you mean `{nearest}`?"),
+        _ => "`lenspeel info` lists the nodes of a model".into(),
+    }
+}
+
+fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {
+    let wanted = match &content.nodes {
+        Some(patterns) => patterns.iter().any(|p| model.node_matches(node, p)),
+        None => index != 0 || !spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value)),
+    };
+    wanted && model.nodes[node].drawn
+}
+
+/// What name patterns are held against.
+struct Subject<'a> {
+    model: &'a Model,
+    node: usize,
+    material: &'a str,
+}
+
+impl Subject<'_> {
+    fn is_in(&self, matches: &Matches) -> bool {
+        self.is_any(&matches.nodes, &matches.materials)
+    }
+
+    fn is_any(&self, nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> bool {
+        nodes.iter().any(|p| self.model.node_matches(self.node, &p.value))
+            || materials.iter().any(|p| p.value.matches(self.material))
+    }
+}

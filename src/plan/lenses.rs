@@ -1,0 +1,182 @@
+//! The enabled lenses, ranked.
+
+use std::ops::Range;
+
+use glam::DAffine3;
+
+use super::{LensSet, MAX_LENSES, Op, PriorityGraph, Rank, filter_name};
+use crate::InputError;
+use crate::lens::{PixelRect, Placement, Volume, build_volume};
+use crate::scene::Scene;
+use crate::spec::{Attach, By, Filter, Glass, LensSpec, OverlapMode, Spec};
+use crate::view::{Projection, View};
+
+/// A lens that takes part, at its place in the total order.
+#[derive(Debug, Clone)]
+pub struct Lens {
+    pub name: String,
+    /// Position in the file.
+    pub index: usize,
+    pub volume: Volume,
+    /// Pixels outside which its volume is not.
+    pub rect: PixelRect,
+    pub by: By,
+    /// What it hides where it acts: named lenses, or all below for an override.
+    pub hides: LensSet,
+    pub overrides: bool,
+    /// All its filters by name, first to act first.
+    pub filters: Vec<Filter>,
+    /// Its appearance filters in [`super::Plan::ops`].
+    pub ops: Range<usize>,
+    /// Whether its filters may make a fragment less than opaque.
+    pub translucent: bool,
+    pub glass: Option<GlassRecord>,
+}
+
+impl Lens {
+    pub fn filter_names(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.filters.iter().map(filter_name)
+    }
+}
+
+/// How a lens surface is drawn; the layout of WGSL's `Glass`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct GlassRecord {
+    /// Linear light; alpha multiplies all.
+    pub color: [f32; 4],
+    pub opacity: f32,
+    pub rim: f32,
+    /// Pixels.
+    pub outline: f32,
+    pub pad: f32,
+}
+
+impl From<Glass> for GlassRecord {
+    fn from(glass: Glass) -> Self {
+        let Glass { color, opacity, rim, outline } = glass;
+        Self { color: color.to_linear(), opacity, rim, outline, pad: 0.0 }
+    }
+}
+
+/// The volume of every lens of the file, disabled ones checked like the others but left out.
+pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Option<Volume>>, InputError> {
+    let enabled = spec.lenses.iter().filter(|l| l.enabled).count();
+    if enabled > MAX_LENSES {
+        let message = format!("{enabled} lenses are enabled, and at most {MAX_LENSES} can be");
+        return Err(InputError::new(message).help("disable some with `enabled = false`"));
+    }
+    spec.lenses
+        .iter()
+        .map(|lens| {
+            let volume = volume(spec, lens, scene, view)?;
+            Ok(lens.enabled.then_some(volume))
+        })
+        .collect()
+}
+
+fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Volume, InputError> {
+    let attach = attach_space(spec, lens, scene, view)?;
+    let placement = Placement { attach, translation: lens.translation, rotation: lens.rotation, scale: lens.scale };
+    let volume = build_volume(&lens.shape.value, &placement, view).map_err(|reason| {
+        let message = format!("the shape of lens `{}` has no volume: {reason}", lens.name.value);
+        InputError::at(&spec.source, lens.shape.span.clone(), message)
+    })?;
+    if !(volume.world_from_local.is_finite() && volume.local_from_world.is_finite()) {
+        let message = format!("the numbers of lens `{}` are too large or too small to compute with", lens.name.value);
+        return Err(InputError::at(&spec.source, lens.shape.span.clone(), message));
+    }
+    Ok(volume)
+}
+
+fn attach_space(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<DAffine3, InputError> {
+    let model = &scene.models[0];
+    match &lens.attach.value {
+        Attach::Scene => Ok(DAffine3::IDENTITY),
+        Attach::Camera => Ok(view.world_from_camera()),
+        Attach::Node(name) => {
+            let found: Vec<usize> = (0..model.nodes.len()).filter(|i| model.nodes[*i].name == *name).collect();
+            let error = |message: String, help: String| {
+                InputError::at(&spec.source, lens.attach.span.clone(), message).help(help)
+            };
+            match found[..] {
+                [node] => Ok(model.nodes[node].world_from_local),
+                [] => Err(error(
+                    format!("`{}` has no node named `{name}`", model.name),
+                    super::items::nearest_node_name(model, name),
+                )),
+                _ => Err(error(
+                    format!("{} nodes of `{}` are named `{name}`", found.len(), model.name),
+                    "a lens is attached to one node; give that node a name of its own".into(),
+                )),
+            }
+        }
+    }
+}
+
+/// What orders each lens of the file.
+pub(super) fn ranks(spec: &Spec, volumes: &[Option<Volume>], view: &View) -> Vec<Rank> {
+    spec.lenses
+        .iter()
+        .zip(volumes)
+        .map(|(lens, volume)| Rank {
+            enabled: lens.enabled,
+            priority: lens.priority,
+            flat: volume.as_ref().filter(|v| v.is_flat).map(|v| match view.projection {
+                Projection::Perspective { .. } => v.center.distance(view.eye),
+                Projection::Orthographic { .. } => view.depth(v.center),
+            }),
+        })
+        .collect()
+}
+
+/// The lenses in total order with their filters as records.
+pub(super) fn rank_lenses(
+    spec: &Spec,
+    scene: &Scene,
+    graph: &PriorityGraph,
+    order: &[usize],
+    volumes: &[Option<Volume>],
+    view: &View,
+) -> (Vec<Lens>, Vec<Op>) {
+    let mut ops = Vec::new();
+    let mut lenses: Vec<Lens> = Vec::new();
+    for (rank, &index) in order.iter().enumerate() {
+        let (lens, Some(volume)) = (&spec.lenses[index], &volumes[index]) else { continue };
+        let first = ops.len();
+        ops.extend(lens.filters.iter().filter_map(|f| Op::from_filter(&f.value, filter_texture(&f.value, scene))));
+        let overrides = lens.overlap == OverlapMode::Override;
+        lenses.push(Lens {
+            name: lens.name.value.clone(),
+            index,
+            rect: volume.pixel_rect(view),
+            volume: volume.clone(),
+            by: lens.by,
+            hides: if overrides { LensSet::below(rank) } else { hidden_by(graph, order, index) },
+            overrides,
+            filters: lens.filters.iter().map(|f| f.value.clone()).collect(),
+            translucent: ops[first..].iter().any(Op::may_be_translucent),
+            ops: first..ops.len(),
+            glass: lens.glass.map(GlassRecord::from),
+        });
+    }
+    (lenses, ops)
+}
+
+fn filter_texture(filter: &Filter, scene: &Scene) -> u32 {
+    match filter {
+        Filter::Texture { file, .. } => scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
+        _ => 0,
+    }
+}
+
+/// Ranks of the lenses that a lens of the file names in `hides`.
+fn hidden_by(graph: &PriorityGraph, order: &[usize], index: usize) -> LensSet {
+    let hidden: Vec<usize> = graph
+        .graph
+        .edges_directed(petgraph::graph::NodeIndex::new(index), petgraph::Direction::Incoming)
+        .filter(|e| e.weight().key == super::Key::Hides)
+        .map(|e| petgraph::visit::EdgeRef::source(&e).index())
+        .collect();
+    (0..order.len()).filter(|rank| hidden.contains(&order[*rank])).collect()
+}

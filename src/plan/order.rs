@@ -1,0 +1,192 @@
+//! The priority graph: declared edges, cycles, and the one total order (SEMANTICS section 3).
+
+use std::ops::Range;
+
+use petgraph::graph::{DiGraph, EdgeIndex, NodeIndex};
+use petgraph::visit::EdgeRef;
+
+use crate::InputError;
+use crate::spec::{At, Pattern, Spec};
+
+/// Which key declared that one lens is above another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Key {
+    Over,
+    Under,
+    Hides,
+}
+
+impl Key {
+    pub fn name(self) -> &'static str {
+        match self {
+            Key::Over => "over",
+            Key::Under => "under",
+            Key::Hides => "hides",
+        }
+    }
+}
+
+/// An edge below -> above.
+#[derive(Debug, Clone)]
+pub struct Declared {
+    pub key: Key,
+    /// The pattern's bytes in the spec.
+    pub span: Range<usize>,
+}
+
+/// Lenses as nodes in file order (disabled ones too), edges from below to above.
+#[derive(Debug, Clone)]
+pub struct PriorityGraph {
+    pub graph: DiGraph<(), Declared>,
+}
+
+/// What orders the ready lenses; by position in the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rank {
+    pub enabled: bool,
+    pub priority: i64,
+    /// For a flat lens: its distance from the eye.
+    pub flat: Option<f64>,
+}
+
+impl PriorityGraph {
+    /// Expands the patterns of a spec and refuses cycles.
+    pub fn new(spec: &Spec) -> Result<Self, InputError> {
+        let mut graph = DiGraph::new();
+        spec.lenses.iter().for_each(|_| {
+            graph.add_node(());
+        });
+        for (index, lens) in spec.lenses.iter().enumerate() {
+            for (key, patterns) in [(Key::Over, &lens.over), (Key::Under, &lens.under), (Key::Hides, &lens.hides)] {
+                for pattern in patterns {
+                    for other in matched(spec, index, pattern)? {
+                        let (below, above) = if key == Key::Under { (index, other) } else { (other, index) };
+                        let declared = Declared { key, span: pattern.span.clone() };
+                        graph.add_edge(NodeIndex::new(below), NodeIndex::new(above), declared);
+                    }
+                }
+            }
+        }
+        let graph = Self { graph };
+        match graph.cycle() {
+            Some(cycle) => Err(cycle_error(spec, &graph, &cycle)),
+            None => Ok(graph),
+        }
+    }
+
+    /// A shortest cycle, the one through the lens that stands first in the file.
+    fn cycle(&self) -> Option<Vec<EdgeIndex>> {
+        petgraph::algo::tarjan_scc(&self.graph)
+            .into_iter()
+            .filter(|component| component.len() > 1)
+            .flatten()
+            .min()
+            .and_then(|start| self.path(start, start))
+    }
+
+    /// The shortest chain of edges upwards from one lens to another, by file order where several are as short.
+    fn path(&self, from: NodeIndex, to: NodeIndex) -> Option<Vec<EdgeIndex>> {
+        let mut came_by: Vec<Option<EdgeIndex>> = vec![None; self.graph.node_count()];
+        let mut queue = std::collections::VecDeque::from([from]);
+        while let Some(node) = queue.pop_front() {
+            let mut edges: Vec<_> = self.graph.edges(node).map(|e| (e.target(), e.id())).collect();
+            edges.sort();
+            for (next, edge) in edges {
+                if next == to {
+                    let mut path = vec![edge];
+                    let mut at = node;
+                    while at != from {
+                        let edge = came_by[at.index()]?;
+                        path.push(edge);
+                        at = self.graph.edge_endpoints(edge)?.0;
+                    }
+                    path.reverse();
+                    return Some(path);
+                }
+                if next != from && came_by[next.index()].is_none() {
+                    came_by[next.index()] = Some(edge);
+                    queue.push_back(next);
+                }
+            }
+        }
+        None
+    }
+
+    /// The declared chain that puts `above` above `below`, as file positions with the edge that leads to each.
+    pub fn chain(&self, below: usize, above: usize) -> Option<Vec<(usize, usize, &Declared)>> {
+        let path = self.path(NodeIndex::new(below), NodeIndex::new(above))?;
+        path.into_iter()
+            .map(|edge| {
+                let (a, b) = self.graph.edge_endpoints(edge)?;
+                Some((a.index(), b.index(), &self.graph[edge]))
+            })
+            .collect()
+    }
+
+    /// The enabled lenses, lowest first, as positions in the file. Greedy, as section 3.3 has it.
+    pub fn total_order(&self, ranks: &[Rank]) -> Vec<usize> {
+        let mut done = vec![false; ranks.len()];
+        let mut order = Vec::new();
+        let ready = |done: &[bool], lens: usize| {
+            ranks[lens].enabled
+                && !done[lens]
+                && self
+                    .graph
+                    .neighbors_directed(NodeIndex::new(lens), petgraph::Direction::Incoming)
+                    .all(|below| done[below.index()] || !ranks[below.index()].enabled)
+        };
+        loop {
+            let candidates: Vec<usize> = (0..ranks.len()).filter(|lens| ready(&done, *lens)).collect();
+            let Some(first) = candidates.iter().copied().min_by_key(|lens| (ranks[*lens].priority, *lens)) else {
+                return order;
+            };
+            let same = candidates.into_iter().filter(|lens| ranks[*lens].priority == ranks[first].priority);
+            let next = match ranks[first].flat {
+                None => first,
+                Some(_) => same
+                    .filter_map(|lens| ranks[lens].flat.map(|distance| (lens, distance)))
+                    .reduce(|best, next| if next.1 > best.1 { next } else { best })
+                    .map_or(first, |(lens, _)| lens),
+            };
+            done[next] = true;
+            order.push(next);
+        }
+    }
+}
+
+/// The other lenses a pattern stands for.
+fn matched(spec: &Spec, own: usize, pattern: &At<Pattern>) -> Result<Vec<usize>, InputError> {
+    let others: Vec<usize> =
+        (0..spec.lenses.len()).filter(|i| *i != own && pattern.value.matches(&spec.lenses[*i].name.value)).collect();
+    if others.is_empty() {
+        let message = format!("no other lens matches `{}`", pattern.value);
+        return Err(InputError::at(&spec.source, pattern.span.clone(), message)
+            .help("name a lens of this file, or a pattern that matches one"));
+    }
+    Ok(others)
+}
+
+fn cycle_error(spec: &Spec, graph: &PriorityGraph, cycle: &[EdgeIndex]) -> InputError {
+    let name = |lens: NodeIndex| spec.lenses[lens.index()].name.value.as_str();
+    let ends = |edge: EdgeIndex| graph.graph.edge_endpoints(edge).expect("edges of the cycle are in the graph");
+    let mut names: Vec<&str> = cycle.iter().map(|edge| name(ends(*edge).0)).collect();
+    names.push(names[0]);
+    let lines: Vec<String> = cycle
+        .iter()
+        .map(|edge| {
+            let declared = &graph.graph[*edge];
+            let (below, above) = ends(*edge);
+            let line = spec.source.line(declared.span.start);
+            format!("line {line} (`{}`) puts `{}` below `{}`", declared.key.name(), name(below), name(above))
+        })
+        .collect();
+    let message = format!("the order of the lenses goes in a circle: {}: {}", names.join(" < "), lines.join(", "));
+    let mut error = InputError::new(message).help("remove one of these edges");
+    error.source_text = Some(spec.source.clone());
+    for edge in cycle {
+        let (below, above) = ends(*edge);
+        let text = format!("`{}` below `{}`", name(below), name(above));
+        error.labels.push((graph.graph[*edge].span.clone(), text));
+    }
+    error
+}
