@@ -1,6 +1,7 @@
 //! Composed 3D magic lenses: ordered depth-interval layers, a priority graph, and an explanation for every pixel.
 #![forbid(unsafe_code)]
 
+pub mod cli;
 mod error;
 pub mod scene;
 pub mod spec;

@@ -284,6 +284,15 @@ impl Model {
         (0..self.nodes.len()).filter(|i| self.nodes[*i].drawn).fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
     }
 
+    /// Images that texture slots of materials use, ascending. The others are one white pixel each.
+    pub fn used_images(&self) -> Vec<usize> {
+        let references = self.materials.iter().flat_map(Material::textures);
+        let mut images: Vec<usize> = references.map(|(_, r)| self.textures[r.texture].image).collect();
+        images.sort_unstable();
+        images.dedup();
+        images
+    }
+
     /// Whether the pattern matches the node's own name or any ancestor's.
     pub fn node_matches(&self, node: usize, pattern: &crate::spec::Pattern) -> bool {
         std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))

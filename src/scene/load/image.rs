@@ -1,6 +1,6 @@
 //! PNG and JPEG images, decoded in parallel to 8-bit RGBA.
 //!
-//! Images that no texture slot of a material uses are not decoded: they may be of a kind we do not read (a fallback for
+//! Images that no material uses ([`Model::used_images`](crate::scene::Model::used_images)) are not decoded: they may be of a kind we do not read (a fallback for
 //! an extension, say). One white pixel stands in their place, so that indices stay those of the file.
 
 use std::borrow::Cow;
@@ -13,19 +13,10 @@ use rayon::prelude::*;
 use super::accessor::view_bytes;
 use super::{Fetch, File, object, open};
 use crate::InputError;
-use crate::scene::{Image, Material, Texture};
+use crate::scene::Image;
 
 /// Pixels of all images together: 1 GiB decoded. Compressed images can claim any size in a few bytes.
 const MAX_PIXELS: u64 = 1 << 28;
-
-/// Which images the materials use, in ascending order.
-pub fn used(materials: &[Material], textures: &[Texture]) -> Vec<usize> {
-    let mut images: Vec<usize> =
-        materials.iter().flat_map(Material::textures).map(|(_, r)| textures[r.texture].image).collect();
-    images.sort_unstable();
-    images.dedup();
-    images
-}
 
 /// All images of the file; only those in `used` (ascending) are decoded.
 pub fn load(file: &File<'_>, used: &[usize], fetch: &mut Fetch<'_>) -> Result<Vec<Image>, InputError> {

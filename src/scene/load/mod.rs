@@ -86,11 +86,10 @@ impl Model {
         let (nodes, scene) = nodes::load(&file, choice, &mut warnings)?;
         let materials = material::load(&file, &mut warnings)?;
         let textures = texture::load(&file);
-        let images = image::load(&file, &image::used(&materials, &textures), fetch)?;
         let mut extensions = file.root().extensions_used.clone();
         extensions.sort();
         extensions.dedup();
-        Ok(Model {
+        let mut model = Model {
             name: name.to_string(),
             meshes: geometry::load(&file, &mut warnings)?,
             lights: light::load(&file)?,
@@ -99,10 +98,13 @@ impl Model {
             nodes,
             materials,
             textures,
-            images,
+            images: Vec::new(),
             scene,
             extensions,
-            warnings,
-        })
+            warnings: Vec::new(),
+        };
+        model.images = image::load(&file, &model.used_images(), fetch)?;
+        model.warnings = warnings;
+        Ok(model)
     }
 }
