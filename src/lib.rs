@@ -1,12 +1,13 @@
 //! Composed 3D magic lenses: ordered depth-interval layers, a priority graph, and an explanation for every pixel.
 #![forbid(unsafe_code)]
 
-mod error;
-pub mod scene;
-pub mod spec;
-
-pub use error::InputError;
 pub mod appearance;
+pub mod cli;
+mod error;
 pub mod lens;
 pub mod plan;
+pub mod scene;
+pub mod spec;
 pub mod view;
+
+pub use error::InputError;

@@ -2,6 +2,7 @@
 //!
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
+mod load;
 mod materials;
 mod model;
 mod open;

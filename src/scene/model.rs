@@ -107,6 +107,21 @@ impl Default for Material {
     }
 }
 
+impl Material {
+    /// The textures in use, each with its role as messages name it.
+    pub fn textures(&self) -> impl Iterator<Item = (&'static str, &TextureRef)> {
+        [
+            ("base colour", &self.base_color_texture),
+            ("metallic-roughness", &self.metallic_roughness_texture),
+            ("normal", &self.normal_texture),
+            ("occlusion", &self.occlusion_texture),
+            ("emissive", &self.emissive_texture),
+        ]
+        .into_iter()
+        .filter_map(|(role, texture)| Some((role, texture.as_ref()?)))
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AlphaMode {
     Opaque,
@@ -122,7 +137,8 @@ pub struct TextureRef {
     pub texture: usize,
     /// Coordinate set, 0 or 1.
     pub uv_set: usize,
-    /// `uv' = offset + rotate(rotation) * (scale * uv)` (`KHR_texture_transform`), rotation in radians.
+    /// `uv' = offset + rotate(rotation) * (scale * uv)` (`KHR_texture_transform`); rotation in radians, from +u to +v
+    /// (glTF counts the other way; the loader turns it).
     pub offset: [f32; 2],
     pub scale: [f32; 2],
     pub rotation: f32,
@@ -266,6 +282,15 @@ impl Model {
     /// Tight world bounds of what the chosen scene draws.
     pub fn bounds(&self) -> Aabb {
         (0..self.nodes.len()).filter(|i| self.nodes[*i].drawn).fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
+    }
+
+    /// Images that texture slots of materials use, ascending. The others are one white pixel each.
+    pub fn used_images(&self) -> Vec<usize> {
+        let references = self.materials.iter().flat_map(Material::textures);
+        let mut images: Vec<usize> = references.map(|(_, r)| self.textures[r.texture].image).collect();
+        images.sort_unstable();
+        images.dedup();
+        images
     }
 
     /// Whether the pattern matches the node's own name or any ancestor's.
