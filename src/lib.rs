@@ -3,7 +3,9 @@
 
 pub mod appearance;
 pub mod cli;
+pub mod cpu;
 mod error;
+pub mod frame;
 pub mod lens;
 pub mod plan;
 pub mod scene;

@@ -91,3 +91,51 @@ fn projected_uv(mapping: u32, p: vec3f, normal: vec3f) -> vec2f {
         }
     }
 }
+
+// The direction in which `u` grows over a triangle, with the sign of the bitangent; for primitives without tangents.
+fn triangle_tangent(a: vec3f, b: vec3f, c: vec3f, uv_a: vec2f, uv_b: vec2f, uv_c: vec2f, normal: vec3f) -> vec4f {
+    let d1 = uv_b - uv_a;
+    let d2 = uv_c - uv_a;
+    let det = d1.x * d2.y - d2.x * d1.y;
+    let along = ((b - a) * d2.y - (c - a) * d1.y) * select(1.0, -1.0, det < 0.0);
+    let flat_along = along - normal * dot(normal, along);
+    if dot(flat_along, flat_along) < 1e-30 {
+        return vec4f(0.0);
+    }
+    // In glTF v runs down the image, so the bitangent points towards smaller v.
+    let across = ((c - a) * d1.x - (b - a) * d2.x) * select(1.0, -1.0, det < 0.0);
+    let side = dot(cross(normal, flat_along), across);
+    return vec4f(normalize(flat_along), select(-1.0, 1.0, side > 0.0));
+}
+
+// A unit normal bent by a normal map's texel (0..1 each). A zero tangent leaves it as it is.
+fn bent_normal(normal: vec3f, tangent: vec4f, texel: vec3f, scale: f32) -> vec3f {
+    if dot(tangent.xyz, tangent.xyz) < 0.5 {
+        return normal;
+    }
+    let t = normalize(tangent.xyz - normal * dot(normal, tangent.xyz) + vec3f(0.0, 1e-12, 0.0));
+    let b = cross(normal, t) * tangent.w;
+    let m = texel * 2.0 - vec3f(1.0);
+    return normalize(t * (m.x * scale) + b * (m.y * scale) + normal * max(m.z, 1e-3));
+}
+
+// A shading normal on the viewer's side: first with the triangle's own, then with the eye.
+fn facing_normal(normal: vec3f, geometric: vec3f, view: vec3f) -> vec3f {
+    let side = dot(normal, geometric) * dot(geometric, view);
+    if side < 0.0 {
+        return -normal;
+    }
+    return normal;
+}
+
+// World lengths that a pixel's step to the right and down span on the plane through `position` with `normal`.
+fn position_footprint(ray: PixelRay, position: vec3f, normal: vec3f) -> vec2f {
+    let depth = dot(position - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+    let facing = dot(normal, ray.direction);
+    let slope = 1.0 / select(facing, 1e-4, abs(facing) < 1e-4);
+    let across_x = ray.origin_dx + ray.direction_dx * depth;
+    let across_y = ray.origin_dy + ray.direction_dy * depth;
+    let on_x = across_x - ray.direction * (dot(normal, across_x) * slope);
+    let on_y = across_y - ray.direction * (dot(normal, across_y) * slope);
+    return vec2f(length(on_x), length(on_y));
+}

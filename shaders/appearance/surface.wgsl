@@ -77,3 +77,14 @@ fn surface_opacity(s: Surface) -> f32 {
     }
     return clamp(material * s.opacity, 0.0, 1.0);
 }
+
+// From here on a fragment counts as opaque; products of filtered alphas may miss one by rounding.
+const OPAQUE_FROM: f32 = 0.9999;
+
+// What a stack makes of a surface before its colour filters act: lit, or its plain base colour.
+fn emitted(s: Surface, lit: vec3f) -> vec3f {
+    if s.unlit != 0u {
+        return base_color(s);
+    }
+    return lit + s.emissive;
+}

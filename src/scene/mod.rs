@@ -11,4 +11,4 @@ mod textures;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
 pub use open::Scene;
-pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet};
+pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet, decode_table};

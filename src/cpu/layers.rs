@@ -1,0 +1,80 @@
+//! The layers of one view ray: the lenses' intervals cut it into stretches with a constant set of lenses.
+
+use crate::lens::Volume;
+use crate::plan::{LensSet, Plan};
+use crate::view::Ray;
+
+/// Boundaries closer than this share of the depth are one (SEMANTICS 2.1).
+const MERGE: f64 = 1e-5;
+
+/// A layer begins: from `depth` to the next start the lenses in `set` are around the ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LayerStart {
+    pub depth: f64,
+    pub set: LensSet,
+}
+
+/// All layers of a ray, nearest first; the first starts at the near plane.
+#[derive(Debug, Clone, Default)]
+pub struct RayLayers {
+    pub starts: Vec<LayerStart>,
+    boundaries: Vec<(f64, usize)>,
+}
+
+impl RayLayers {
+    /// Finds the layers of a ray among the lenses of the given ranks. Keeps its allocations from ray to ray.
+    pub fn find(&mut self, plan: &Plan, ranks: &[usize], ray: &Ray) {
+        let volumes = ranks.iter().map(|rank| (*rank, &plan.lenses[*rank].volume));
+        self.find_among(volumes, ray, plan.view.near, plan.view.far);
+    }
+
+    /// The same for any volumes under any numbers.
+    pub fn find_among<'a>(
+        &mut self,
+        volumes: impl Iterator<Item = (usize, &'a Volume)>,
+        ray: &Ray,
+        near: f64,
+        far: f64,
+    ) {
+        self.starts.clear();
+        self.boundaries.clear();
+        let mut set = LensSet::EMPTY;
+        for (rank, volume) in volumes {
+            let Some(interval) = volume.interval(ray, near, far) else { continue };
+            if interval.entry > near {
+                self.boundaries.push((interval.entry, rank));
+            } else {
+                set.insert(rank);
+            }
+            if interval.exit < far {
+                self.boundaries.push((interval.exit, rank));
+            }
+        }
+        self.starts.push(LayerStart { depth: near, set });
+        self.boundaries.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut rest = self.boundaries.as_slice();
+        while let Some(&(depth, _)) = rest.first() {
+            let merged = rest.iter().take_while(|b| b.0 - depth <= MERGE * depth.abs()).count();
+            for (_, rank) in &rest[..merged] {
+                // A lens that enters and leaves at one boundary has no interval.
+                if set.contains(*rank) {
+                    set.remove(*rank);
+                } else {
+                    set.insert(*rank);
+                }
+            }
+            self.starts.push(LayerStart { depth, set });
+            rest = &rest[merged..];
+        }
+    }
+
+    /// The lenses around a depth: membership is half-open, `entry <= depth < exit`.
+    pub fn set_at(&self, depth: f64) -> LensSet {
+        self.starts.iter().rev().find(|start| start.depth <= depth).map_or(LensSet::EMPTY, |start| start.set)
+    }
+
+    /// One more than the distinct boundaries between near and far.
+    pub fn count(&self) -> usize {
+        self.starts.len().max(1)
+    }
+}

@@ -1,0 +1,15 @@
+//! The reference backend: a ray a sample, all hits along it in order, closed-form lens intervals.
+
+mod convert;
+mod geometry;
+mod glass;
+mod intersect;
+mod layers;
+mod pixel;
+mod render;
+mod shade;
+mod texture;
+
+pub use layers::{LayerStart, RayLayers};
+pub use pixel::{Fragment, PixelReport, Visible};
+pub use render::Renderer;

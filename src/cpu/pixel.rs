@@ -1,0 +1,254 @@
+//! Everything on one view ray: layers, hits in order, the visible fragment, the colour.
+
+use glam::{Vec3, Vec4};
+use obvhs::ray::Ray as BvhRay;
+
+use super::convert::d3;
+use super::geometry::Geometry;
+use super::glass::{self, GlassHit};
+use super::intersect::ShearedRay;
+use super::layers::RayLayers;
+use super::shade::{Shaded, Shader};
+use crate::appearance as wgsl;
+use crate::plan::{LensSet, Plan};
+use crate::scene::Scene;
+use crate::view::Ray;
+
+/// A surface sample on a ray, classified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fragment {
+    /// Into [`Plan::items`].
+    pub item: u32,
+    /// Into the item's triangles.
+    pub triangle: u32,
+    pub depth: f32,
+    /// Barycentric weights of the triangle's corners.
+    pub weights: Vec3,
+    /// The lenses around it (S) and those of them that act.
+    pub set: LensSet,
+    pub stack: LensSet,
+}
+
+/// The visible fragment of a pixel (SEMANTICS 6.4).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visible {
+    pub fragment: Fragment,
+    pub normal: Vec3,
+}
+
+/// What one pixel's ray met, for `explain`.
+#[derive(Debug, Clone)]
+pub struct PixelReport {
+    pub layers: RayLayers,
+    /// Every fragment between near and far that survives, nearest first, with its opacity and coverage, up to the
+    /// first opaque one.
+    pub fragments: Vec<(Fragment, f32, f32)>,
+    pub visible: Option<Visible>,
+}
+
+/// Traces rays through one plan.
+pub struct Tracer<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    geometry: &'a [Geometry],
+    shader: Shader<'a>,
+    /// Lenses whose filters may make a fragment translucent.
+    translucent: LensSet,
+    /// For each content but the scene: the lenses that show it.
+    shown_by: Vec<LensSet>,
+}
+
+/// Buffers that live from ray to ray.
+#[derive(Default)]
+pub struct Scratch {
+    layers: RayLayers,
+    fragments: Vec<Fragment>,
+    glass: Vec<GlassHit>,
+}
+
+/// The nearest fragment that surely ends the ray.
+type Opaque = Option<Fragment>;
+
+impl<'a> Tracer<'a> {
+    pub fn new(scene: &'a Scene, plan: &'a Plan, geometry: &'a [Geometry]) -> Self {
+        let shown = |content: usize| {
+            let items = plan.items.iter().filter(|item| item.content == content);
+            items.fold(LensSet::EMPTY, |all, item| all | item.shown_by)
+        };
+        Self {
+            scene,
+            plan,
+            geometry,
+            shader: Shader::new(scene, plan),
+            translucent: (0..plan.lenses.len()).filter(|rank| plan.lenses[*rank].translucent).collect(),
+            shown_by: (0..plan.contents.len()).map(shown).collect(),
+        }
+    }
+
+    /// The premultiplied linear colour of a point of the picture (pixels from the top left), without background.
+    pub fn color(&self, x: f64, y: f64, ranks: &[usize], scratch: &mut Scratch) -> Vec4 {
+        let (ray, pixel) = self.rays(x, y);
+        let opaque = self.trace(&ray, ranks, scratch);
+        glass::find(self.plan, ranks, &ray, &pixel, &mut scratch.glass);
+        scratch.fragments.extend(opaque);
+        scratch
+            .fragments
+            .sort_unstable_by(|a, b| self.key(a).partial_cmp(&self.key(b)).unwrap_or(std::cmp::Ordering::Equal));
+        scratch.glass.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.rank.cmp(&b.rank)));
+        self.composite(scratch, &pixel)
+    }
+
+    fn composite(&self, scratch: &Scratch, pixel: &wgsl::PixelRay) -> Vec4 {
+        let mut front = Vec4::ZERO;
+        let mut glass = scratch.glass.iter().peekable();
+        for fragment in &scratch.fragments {
+            while let Some(hit) = glass.next_if(|hit| hit.depth < f64::from(fragment.depth)) {
+                front = over(front, hit.color.truncate(), hit.color.w);
+            }
+            let shaded = self.shader.shade(fragment, pixel);
+            let opacity = shaded.opacity * shaded.coverage;
+            front = over(front, shaded.color, opacity);
+            if opacity >= wgsl::OPAQUE_FROM.0 {
+                return front;
+            }
+        }
+        glass.fold(front, |front, hit| over(front, hit.color.truncate(), hit.color.w))
+    }
+
+    /// What is at a point of the picture, and how it came about.
+    pub fn report(&self, x: f64, y: f64, ranks: &[usize], scratch: &mut Scratch) -> PixelReport {
+        let (ray, pixel) = self.rays(x, y);
+        let opaque = self.trace(&ray, ranks, scratch);
+        scratch.fragments.extend(opaque);
+        scratch
+            .fragments
+            .sort_unstable_by(|a, b| self.key(a).partial_cmp(&self.key(b)).unwrap_or(std::cmp::Ordering::Equal));
+        let mut fragments = Vec::new();
+        let mut visible: Option<Visible> = None;
+        for fragment in &scratch.fragments {
+            let Shaded { opacity, coverage, normal, .. } = self.shader.shade(fragment, &pixel);
+            if opacity * coverage <= 0.0 {
+                continue;
+            }
+            fragments.push((*fragment, opacity, coverage));
+            let here = Visible { fragment: *fragment, normal };
+            if coverage >= 0.5 && opacity >= wgsl::OPAQUE_FROM.0 {
+                visible = Some(here);
+                break;
+            }
+            if coverage >= 0.5 && visible.is_none() {
+                visible = Some(here);
+            }
+        }
+        PixelReport { layers: scratch.layers.clone(), fragments, visible }
+    }
+
+    /// Collects the surviving fragments that may be translucent, in front of the nearest that surely is opaque.
+    fn trace(&self, ray: &Ray, ranks: &[usize], scratch: &mut Scratch) -> Opaque {
+        scratch.fragments.clear();
+        scratch.glass.clear();
+        scratch.layers.find(self.plan, ranks, ray);
+        let around = scratch.layers.starts.iter().fold(LensSet::EMPTY, |all, start| all | start.set);
+        let mut opaque: Opaque = None;
+        for (content, geometry) in self.geometry.iter().enumerate() {
+            let shown = content == 0
+                || !(self.shown_by[content] & around).is_empty()
+                || !self.shown_by[content].minus(self.plan.by_pixel).is_empty();
+            if shown && !geometry.triangles.is_empty() {
+                self.trace_content(geometry, ray, scratch, &mut opaque);
+            }
+        }
+        if let Some(opaque) = &opaque {
+            let end = self.key(opaque);
+            scratch.fragments.retain(|f| self.key(f) < end);
+        }
+        opaque
+    }
+
+    fn trace_content(&self, geometry: &Geometry, ray: &Ray, scratch: &mut Scratch, opaque: &mut Opaque) {
+        // Rays of an orthographic camera start at the near plane: depths there may be negative.
+        let shift = if self.plan.view.is_perspective() { 0.0 } else { self.plan.view.near };
+        let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
+        let origin = ray.at(shift).as_vec3();
+        let direction = ray.direction.as_vec3();
+        let sheared = ShearedRay::new(origin, direction);
+        let mut walk_ray = BvhRay::new(origin.into(), direction.into(), 0.0, far - shift as f32);
+        if let Some(known) = &*opaque {
+            walk_ray.tmax = known.depth - shift as f32;
+        }
+        let mut visit = |slot: u32, end: &mut f32| {
+            let triangle = &geometry.triangles[slot as usize];
+            let Some(hit) = sheared.hit(&triangle.corners) else { return };
+            let depth = hit.t + shift as f32;
+            if hit.t > *end || depth < near || depth > far || self.is_culled(triangle, direction) {
+                return;
+            }
+            let Some(fragment) = self.classify(triangle.item, triangle.index, depth, hit.weights, &scratch.layers)
+            else {
+                return;
+            };
+            let item = &self.plan.items[fragment.item as usize];
+            if item.translucent || !(fragment.stack & self.translucent).is_empty() {
+                scratch.fragments.push(fragment);
+            } else if opaque.is_none_or(|known| self.key(&fragment) < self.key(&known)) {
+                *opaque = Some(fragment);
+                *end = hit.t;
+            }
+        };
+        let mut state = geometry.bvh.new_traversal(walk_ray.direction);
+        let mut node;
+        use glam::UVec2;
+        obvhs::traverse!(geometry.bvh, node, state, node.intersect_ray(&walk_ray, state.oct_inv4), {
+            visit(state.primitive_id, &mut walk_ray.tmax);
+        });
+    }
+
+    /// The fragment with its lenses, unless they take it away.
+    fn classify(&self, item: u32, triangle: u32, depth: f32, weights: Vec3, layers: &RayLayers) -> Option<Fragment> {
+        let subject = &self.plan.items[item as usize];
+        let inside = layers.set_at(f64::from(depth));
+        let verdict = self.plan.walk(subject, inside);
+        verdict.displayed.then_some(Fragment { item, triangle, depth, weights, set: verdict.set, stack: verdict.stack })
+    }
+
+    fn is_culled(&self, triangle: &super::geometry::Triangle, direction: Vec3) -> bool {
+        if !self.plan.cull_backfaces {
+            return false;
+        }
+        let item = &self.plan.items[triangle.item as usize];
+        if self.scene.materials[item.material].double_sided != 0 {
+            return false;
+        }
+        let [a, b, c] = triangle.corners;
+        let mirrored = self.scene.models[item.model].nodes[item.node].world_from_local.matrix3.determinant() < 0.0;
+        ((b - a).cross(c - a).dot(direction) > 0.0) != mirrored
+    }
+
+    /// Nearest first; at equal depths by content, node, primitive and triangle.
+    fn key(&self, fragment: &Fragment) -> (f32, u32) {
+        (fragment.depth, self.plan.items[fragment.item as usize].first_triangle + fragment.triangle)
+    }
+
+    /// The ray of a point of the picture, for intervals and for shading.
+    fn rays(&self, x: f64, y: f64) -> (Ray, wgsl::PixelRay) {
+        let view = &self.plan.view;
+        let ray = view.ray(x, y);
+        let (right, down) = view.pixel_steps();
+        let none = glam::DVec3::ZERO;
+        let (origin_steps, direction_steps) =
+            if view.is_perspective() { ((none, none), (right, down)) } else { ((right, down), (none, none)) };
+        let pixel = wgsl::PixelRay {
+            origin: d3(ray.origin),
+            direction: d3(ray.direction),
+            origin_dx: d3(origin_steps.0),
+            origin_dy: d3(origin_steps.1),
+            direction_dx: d3(direction_steps.0),
+            direction_dy: d3(direction_steps.1),
+        };
+        (ray, pixel)
+    }
+}
+
+fn over(front: Vec4, back: Vec3, alpha: f32) -> Vec4 {
+    super::convert::g4(wgsl::over(super::convert::v4(front), super::convert::v3(back), alpha))
+}

@@ -1,0 +1,256 @@
+//! From a hit to a colour: attributes, textures, the stack's filters, light.
+
+use glam::{Vec2, Vec3, Vec4};
+
+use super::convert::{a4, g2, g3, g4, light, op, v2, v3, v4};
+use super::pixel::Fragment;
+use super::texture;
+use crate::appearance as wgsl;
+use crate::plan::{Item, LensSet, Plan};
+use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot};
+
+/// The records of a plan in the form that the translated shaders take.
+pub struct Shader<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    ops: Vec<wgsl::Op>,
+    lights: Vec<wgsl::Light>,
+    up: Vec3,
+    items: Vec<ItemTransform>,
+}
+
+/// World from an item's local space for points, and for normals.
+struct ItemTransform {
+    point: glam::Affine3A,
+    normal: glam::Mat3,
+}
+
+/// A fragment's colour (linear, straight), opacity, coverage, and its shading normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shaded {
+    pub color: Vec3,
+    pub opacity: f32,
+    pub coverage: f32,
+    pub normal: Vec3,
+}
+
+/// A triangle of an item with its corners in the world.
+struct Corners<'a> {
+    primitive: &'a Primitive,
+    indices: [usize; 3],
+    world: [Vec3; 3],
+}
+
+impl Corners<'_> {
+    fn interpolated<T: Copy>(&self, values: &[T], weights: Vec3) -> T
+    where
+        T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
+    {
+        let [a, b, c] = self.indices.map(|i| values[i]);
+        a * weights.x + b * weights.y + c * weights.z
+    }
+
+    /// Texture coordinates of the corners in one set; zero where the primitive has none.
+    fn uv(&self, set: u32) -> [Vec2; 3] {
+        match &self.primitive.uv[set.min(1) as usize] {
+            Some(uv) => self.indices.map(|i| uv[i]),
+            None => [Vec2::ZERO; 3],
+        }
+    }
+}
+
+impl<'a> Shader<'a> {
+    pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
+        let items = plan
+            .items
+            .iter()
+            .map(|item| {
+                let world = scene.models[item.model].nodes[item.node].world_from_local;
+                ItemTransform { point: world.as_affine3a(), normal: world.matrix3.inverse().transpose().as_mat3() }
+            })
+            .collect();
+        Self {
+            scene,
+            plan,
+            ops: plan.ops.iter().map(op).collect(),
+            lights: plan.lighting.lights.iter().map(light).collect(),
+            up: plan.lighting.up,
+            items,
+        }
+    }
+
+    /// Runs the stack on a fragment that a pixel's ray has met.
+    pub fn shade(&self, fragment: &Fragment, ray: &wgsl::PixelRay) -> Shaded {
+        let item = &self.plan.items[fragment.item as usize];
+        let corners = self.corners(item, fragment);
+        let [a, b, c] = corners.world.map(v3);
+        let weights = fragment.weights;
+        let geometric =
+            (corners.world[1] - corners.world[0]).cross(corners.world[2] - corners.world[0]).normalize_or_zero();
+        let view = -g3(ray.direction).normalize();
+        let mut surface = self.surface(item, fragment, &corners, geometric, view, ray);
+        let normal = g3(surface.normal);
+        for op in self.stack_ops(fragment.stack) {
+            let texel = if op.kind == wgsl::OP_TEXTURE.0 {
+                self.filter_texel(op, &corners, weights, g3(surface.position), normal, ray)
+            } else {
+                Vec4::ONE
+            };
+            surface = wgsl::filter_surface(*op, surface, v4(texel));
+        }
+        let opacity = wgsl::surface_opacity(surface);
+        let mut color = g3(wgsl::emitted(surface, v3(self.light(surface))));
+        for op in self.stack_ops(fragment.stack) {
+            color = g3(wgsl::filter_color(*op, v3(color)));
+        }
+        let mut shaded = wgsl::Shaded { color: v3(color), opacity, coverage: 1.0 };
+        let mut edge = None;
+        for op in self.stack_ops(fragment.stack).filter(|op| op.kind == wgsl::OP_WIREFRAME.0) {
+            let edge = *edge.get_or_insert_with(|| wgsl::wire_distance(*ray, a, b, c));
+            shaded = wgsl::filter_wireframe(*op, shaded, edge);
+        }
+        Shaded { color: g3(shaded.color), opacity: shaded.opacity, coverage: shaded.coverage, normal }
+    }
+
+    fn stack_ops(&self, stack: LensSet) -> impl Iterator<Item = &wgsl::Op> {
+        stack.iter().flat_map(|rank| &self.ops[self.plan.lenses[rank].ops.clone()])
+    }
+
+    fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'a> {
+        let model = &self.scene.models[item.model];
+        let primitive = &model.meshes[item.mesh].primitives[item.primitive];
+        let indices = primitive.triangles[fragment.triangle as usize].map(|i| i as usize);
+        let to_world = &self.items[fragment.item as usize].point;
+        let world = indices.map(|i| to_world.transform_point3(primitive.positions[i]));
+        Corners { primitive, indices, world }
+    }
+
+    /// The surface as its material has it.
+    fn surface(
+        &self,
+        item: &Item,
+        fragment: &Fragment,
+        corners: &Corners,
+        geometric: Vec3,
+        view: Vec3,
+        ray: &wgsl::PixelRay,
+    ) -> wgsl::Surface {
+        let material = &self.scene.materials[item.material];
+        let weights = fragment.weights;
+        let primitive = corners.primitive;
+        let texel = |slot: &TextureSlot| self.texel(slot, corners, weights, ray);
+        let mut factor = Vec4::from_array(material.base_color);
+        if let Some(colors) = &primitive.colors {
+            factor *= corners.interpolated(colors, weights);
+        }
+        let metal_rough = texel(&material.metallic_roughness_texture);
+        let occlusion = texel(&material.occlusion_texture).x;
+        let [er, eg, eb] = material.emissive;
+        wgsl::Surface {
+            position: v3(corners.world[0] * weights.x + corners.world[1] * weights.y + corners.world[2] * weights.z),
+            normal: v3(self.normal(material, fragment, corners, geometric, view, ray)),
+            view: v3(view),
+            factor: v4(factor),
+            texel: v4(texel(&material.base_color_texture)),
+            metallic: material.metallic * metal_rough.z,
+            roughness: material.roughness * metal_rough.y,
+            emissive: v3(Vec3::new(er, eg, eb) * texel(&material.emissive_texture).truncate()),
+            occlusion: 1.0 + material.occlusion_strength * (occlusion - 1.0),
+            alpha_mode: material.alpha_mode,
+            alpha_cutoff: material.alpha_cutoff,
+            opacity: 1.0,
+            unlit: material.unlit,
+        }
+    }
+
+    fn normal(
+        &self,
+        material: &crate::scene::MaterialRecord,
+        fragment: &Fragment,
+        corners: &Corners,
+        geometric: Vec3,
+        view: Vec3,
+        ray: &wgsl::PixelRay,
+    ) -> Vec3 {
+        let transform = &self.items[fragment.item as usize];
+        let weights = fragment.weights;
+        let mut normal = match &corners.primitive.normals {
+            Some(normals) => (transform.normal * corners.interpolated(normals, weights)).normalize_or(geometric),
+            None => geometric,
+        };
+        let slot = &material.normal_texture;
+        if slot.texture != NO_TEXTURE {
+            let tangent = match &corners.primitive.tangents {
+                Some(tangents) => {
+                    let t = corners.interpolated(tangents, weights);
+                    transform.point.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w.signum())
+                }
+                None => {
+                    let [a, b, c] = corners.world.map(v3);
+                    let [ua, ub, uc] = self.slot_uv(slot, corners).map(v2);
+                    g4(wgsl::triangle_tangent(a, b, c, ua, ub, uc, v3(normal)))
+                }
+            };
+            let texel = self.texel(slot, corners, weights, ray).truncate();
+            normal = g3(wgsl::bent_normal(v3(normal), v4(tangent), v3(texel), material.normal_scale));
+        }
+        g3(wgsl::facing_normal(v3(normal), v3(geometric), v3(view)))
+    }
+
+    /// A slot's coordinates at the corners, transformed.
+    fn slot_uv(&self, slot: &TextureSlot, corners: &Corners) -> [Vec2; 3] {
+        corners
+            .uv(slot.uv_set)
+            .map(|uv| g2(wgsl::transform_uv(v2(uv), v2(Vec2::from_array(slot.offset)), a4(slot.matrix))))
+    }
+
+    /// A slot's texel; white where it has no texture.
+    fn texel(&self, slot: &TextureSlot, corners: &Corners, weights: Vec3, ray: &wgsl::PixelRay) -> Vec4 {
+        if slot.texture == NO_TEXTURE {
+            return Vec4::ONE;
+        }
+        self.sample(slot.texture, self.slot_uv(slot, corners), corners, weights, ray)
+    }
+
+    fn sample(&self, index: u32, uv: [Vec2; 3], corners: &Corners, weights: Vec3, ray: &wgsl::PixelRay) -> Vec4 {
+        let [a, b, c] = corners.world.map(v3);
+        let [ua, ub, uc] = uv;
+        let size = texture::size(&self.scene.textures, index);
+        let footprint = wgsl::uv_footprint(*ray, a, b, c, v2(ua), v2(ub), v2(uc), v2(size));
+        let at = ua * weights.x + ub * weights.y + uc * weights.z;
+        texture::sample(&self.scene.textures, index, at, footprint)
+    }
+
+    /// The texel of a `texture` filter.
+    fn filter_texel(
+        &self,
+        op: &wgsl::Op,
+        corners: &Corners,
+        weights: Vec3,
+        position: Vec3,
+        normal: Vec3,
+        ray: &wgsl::PixelRay,
+    ) -> Vec4 {
+        let scale = Vec2::new(op.a.x, op.a.y);
+        if op.flags == wgsl::UV_MESH.0 {
+            return self.sample(op.texture, corners.uv(0).map(|uv| uv * scale), corners, weights, ray);
+        }
+        let space = &self.plan.texture_space;
+        let project =
+            |p: Vec3| g2(wgsl::projected_uv(op.flags, v3((p - space.origin) * space.scale), v3(normal))) * scale;
+        let size = texture::size(&self.scene.textures, op.texture);
+        // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
+        let span = g2(wgsl::position_footprint(*ray, v3(position), v3(normal)));
+        let footprint = span.max_element() * space.scale * (scale.abs() * size).max_element();
+        texture::sample(&self.scene.textures, op.texture, project(position), footprint)
+    }
+
+    /// Light that a surface sends to the viewer.
+    fn light(&self, surface: wgsl::Surface) -> Vec3 {
+        if surface.unlit != 0 {
+            return Vec3::ZERO;
+        }
+        let ambient = g3(wgsl::ambient_light(surface, self.plan.lighting.ambient, v3(self.up)));
+        self.lights.iter().fold(ambient, |sum, light| sum + g3(wgsl::lit_by(*light, surface)))
+    }
+}
