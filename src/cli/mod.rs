@@ -2,6 +2,7 @@
 
 mod info;
 mod init;
+pub mod report;
 
 pub use info::info_text;
 pub use init::init_text;
