@@ -38,7 +38,7 @@ pub fn list_that_stays(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
         let (row, item, _) = named(&filter)?;
         if row.moves {
             return Err(item
-                .error(format!("filter `{}` moves content, which an overlap rule may not", row.name))
+                .error_at_key(format!("filter `{}` moves content, which an overlap rule may not", row.name))
                 .help("move it to a lens"));
         }
     }
@@ -70,7 +70,7 @@ fn named<'a>(item: &Item<'a>) -> Result<(&'static FilterRow, Item<'a>, Option<&'
 fn row(name: &str, item: &Item) -> Result<&'static FilterRow, InputError> {
     catalogue::filter(name).ok_or_else(|| {
         let names = FILTERS.iter().map(|row| row.name);
-        item.error(format!("there is no filter `{name}`")).help(suggest::help(name, names))
+        item.error_at_key(format!("there is no filter `{name}`")).help(suggest::help(name, names))
     })
 }
 

@@ -24,11 +24,18 @@ pub struct Item<'a> {
     pub name: String,
     pub value: &'a DeValue<'a>,
     pub span: Range<usize>,
+    /// The place of the word that says what it is; the whole value where there is none.
+    pub key: Range<usize>,
 }
 
 impl<'a> Item<'a> {
     pub fn new(file: &'a File<'a>, name: impl Into<String>, value: &'a Spanned<DeValue<'a>>) -> Self {
-        Self { file, name: name.into(), value: value.get_ref(), span: value.span() }
+        Self { file, name: name.into(), value: value.get_ref(), span: value.span(), key: value.span() }
+    }
+
+    /// An error about the kind of thing this is rather than its value.
+    pub fn error_at_key(&self, message: impl Into<String>) -> InputError {
+        InputError::at(self.file.source, self.key.clone(), message)
     }
 
     pub fn error(&self, message: impl Into<String>) -> InputError {

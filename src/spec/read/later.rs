@@ -7,7 +7,7 @@ use crate::spec::catalogue::{FILTERS, FilterRow, Param};
 
 pub fn filter(item: &Item, row: &FilterRow) -> InputError {
     let built = FILTERS.iter().filter(|row| row.built).map(|row| row.name);
-    item.error(format!("filter `{}` is not built yet", row.name))
+    item.error_at_key(format!("filter `{}` is not built yet", row.name))
         .help(format!("these work: {}", suggest::listed(built)))
 }
 
@@ -18,5 +18,5 @@ pub fn param(item: &Item, row: &FilterRow, param: &Param) -> InputError {
 
 /// Anything else, with what to write instead.
 pub fn feature(item: &Item, what: &str, instead: &str) -> InputError {
-    item.error(format!("{what} is not built yet")).help(instead)
+    item.error_at_key(format!("{what} is not built yet")).help(instead)
 }

@@ -26,7 +26,7 @@ pub fn read(item: &Item) -> Result<At<Shape>, InputError> {
         "union" | "intersection" | "difference" => Err(compound(&inner)),
         other => {
             let names = keys::SHAPES.iter().map(|(name, _)| *name);
-            Err(inner.error(format!("there is no shape `{other}`")).help(suggest::help(other, names)))
+            Err(inner.error_at_key(format!("there is no shape `{other}`")).help(suggest::help(other, names)))
         }
     }?;
     Ok(inner.at(shape))

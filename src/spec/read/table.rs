@@ -90,7 +90,7 @@ pub fn only_entry<'a>(item: &Item<'a>, wanted: &str) -> Result<Item<'a>, InputEr
         [(key, span, value)] => {
             let inner = Item::new(item.file, *key, value);
             // A table written with dotted keys has no place of its own.
-            Ok(Item { span: span.start.min(inner.span.start)..inner.span.end.max(span.end), ..inner })
+            Ok(Item { key: span.clone(), span: span.start.min(inner.span.start)..inner.span.end.max(span.end), ..inner })
         }
         [] => Err(item.error(format!("`{}` is empty", item.name)).help(format!("it must be {wanted}"))),
         [(first, ..), (second, ..), ..] => Err(item
