@@ -11,3 +11,6 @@ pub use color::Color;
 pub use pattern::Pattern;
 pub use range::NumberRange;
 pub use types::*;
+
+#[cfg(test)]
+pub(crate) use read::keys;

@@ -36,3 +36,6 @@ pub fn schema() -> Value {
         },
     })
 }
+
+#[cfg(test)]
+mod tests;

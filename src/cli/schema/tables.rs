@@ -35,7 +35,11 @@ pub fn camera() -> Value {
         "far": described(number(NumberRange::ANY), "Farthest depth drawn; default: fitted.", NONE),
         "node": described(text(), "A camera of the file instead.", NONE),
     });
-    described(table(&[], properties), "Default: looks from (1, 0.7, 1.3) at the centre of the bounds, which just fit.", NONE)
+    described(
+        table(&[], properties),
+        "Default: looks from (1, 0.7, 1.3) at the centre of the bounds, which just fit.",
+        NONE,
+    )
 }
 
 pub fn image() -> Value {
@@ -83,4 +87,3 @@ pub fn animation() -> Value {
     });
     described(table(&[], properties), "Image sequences; a still is at 0 s.", NONE)
 }
-

@@ -111,6 +111,7 @@ impl fmt::Display for ParamKind {
             Self::Number(range) if *range == NumberRange::ANY => write!(f, "number"),
             Self::Number(range) => write!(f, "number, {range}"),
             Self::Integer(min, max) => write!(f, "whole number, from {min} to {max}"),
+            Self::NumberOrPair(range) if *range == NumberRange::ANY => write!(f, "number or [x, y]"),
             Self::NumberOrPair(range) => write!(f, "number or [x, y], {range}"),
             Self::Interval => write!(f, "[low, high]"),
             Self::Vector => write!(f, "[x, y, z]"),

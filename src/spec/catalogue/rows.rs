@@ -53,7 +53,7 @@ pub const FILTERS: &[FilterRow] = &[
     built("material", Surface, "overrides the material", MATERIAL),
     built("texture", Surface, "replaces the base colour texture", TEXTURE),
     built("normals", Surface, "false colour by the surface normal", NORMALS),
-    planned("depth", Surface, "false colour by distance from the eye", FALSE_COLOR),
+    planned("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
     planned("height", Surface, "false colour by height", FALSE_COLOR),
     planned("curvature", Surface, "false colour by curvature", FALSE_COLOR),
     planned("attribute", Surface, "false colour by a vertex attribute", ATTRIBUTE),
@@ -82,12 +82,7 @@ const SHOW: &[Param] = &[
     param("alternate", Text, Meaning("give this or nodes"), "a name under [scene.alternates]"),
     param("nodes", Patterns, Meaning("give this or alternate"), "exactly these nodes, hidden ones too"),
 ];
-const LOD: &[Param] = &[param(
-    "ratio",
-    Number(NumberRange { min: Some(0.0), max: Some(1.0), open: false }),
-    Num(0.1),
-    "of triangles kept",
-)];
+const LOD: &[Param] = &[param("ratio", UNIT, Num(0.1), "of triangles kept")];
 const MAGNIFY: &[Param] = &[
     param("factor", Number(NumberRange::POSITIVE), Num(2.0), "how many times larger"),
     param("center", Vector, Meaning("the lens's centre"), "fixed point, in the shape's space"),

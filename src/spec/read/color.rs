@@ -15,7 +15,7 @@ impl Item<'_> {
         parse(text).ok_or_else(|| {
             let near = (!text.starts_with('#')).then(|| nearest(text)).flatten();
             let help = near.map_or_else(|| WANTED.to_owned(), |name| format!("did you mean \"{name}\"?"));
-            self.error(format!("`{}` is not a colour: \"{text}\"", self.name)).help(help)
+            self.error(format!("{} is not a colour: \"{text}\"", self.called())).help(help)
         })
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use toml::de::{DeTable, DeValue};
 
-use super::item::{File, Item};
+use super::item::{File, Item, kind_of};
 use super::suggest;
 use super::table::{entries, only_entry};
 use super::{color, later};
@@ -63,7 +63,7 @@ fn named<'a>(item: &Item<'a>) -> Result<(&'static FilterRow, Item<'a>, Option<&'
     let row = row(&inner.name, &inner)?;
     match inner.value {
         DeValue::Table(map) => Ok((row, inner, Some(map))),
-        _ => Err(inner.wrong_type(&format!("a table with {}", parameters(row)))),
+        _ => Err(not_parameters(&inner, row)),
     }
 }
 
@@ -74,11 +74,13 @@ fn row(name: &str, item: &Item) -> Result<&'static FilterRow, InputError> {
     })
 }
 
-fn parameters(row: &FilterRow) -> String {
-    match row.params {
-        [] => "no parameters".to_owned(),
-        params => suggest::listed(params.iter().map(|param| param.name)),
-    }
+fn not_parameters(item: &Item, row: &FilterRow) -> InputError {
+    let example = match row.params {
+        [] => "{}".to_owned(),
+        [first, ..] => format!("{{ {} = ... }}", first.name),
+    };
+    item.error(format!("filter `{}` takes a table of parameters, not {}", row.name, kind_of(item.value)))
+        .help(format!("write {{ {} = {example} }}", row.name))
 }
 
 /// The values of one filter's parameters, defaults filled in.

@@ -26,11 +26,19 @@ pub struct Item<'a> {
     pub span: Range<usize>,
     /// The place of the word that says what it is; the whole value where there is none.
     pub key: Range<usize>,
+    /// One of the values of a list; then `name` is the list's.
+    in_list: bool,
 }
 
 impl<'a> Item<'a> {
     pub fn new(file: &'a File<'a>, name: impl Into<String>, value: &'a Spanned<DeValue<'a>>) -> Self {
-        Self { file, name: name.into(), value: value.get_ref(), span: value.span(), key: value.span() }
+        Self { file, name: name.into(), value: value.get_ref(), span: value.span(), key: value.span(), in_list: false }
+    }
+
+    /// As messages call it: "`radius`", "an entry of `radii`".
+    pub fn called(&self) -> String {
+        let entry = if self.in_list { "an entry of " } else { "" };
+        format!("{entry}`{}`", self.name)
     }
 
     /// An error about the kind of thing this is rather than its value.
@@ -44,7 +52,7 @@ impl<'a> Item<'a> {
 
     /// "`radius` must be a number, not a string"
     pub fn wrong_type(&self, wanted: &str) -> InputError {
-        self.error(format!("`{}` must be {wanted}, not {}", self.name, kind_of(self.value)))
+        self.error(format!("{} must be {wanted}, not {}", self.called(), kind_of(self.value)))
     }
 
     pub fn at<T>(&self, value: T) -> At<T> {
@@ -61,7 +69,7 @@ impl<'a> Item<'a> {
     /// A string that is not empty.
     pub fn text(&self) -> Result<&'a str, InputError> {
         match self.value {
-            DeValue::String(text) if text.is_empty() => Err(self.error(format!("`{}` is empty", self.name))),
+            DeValue::String(text) if text.is_empty() => Err(self.error(format!("{} is empty", self.called()))),
             DeValue::String(text) => Ok(text.as_ref()),
             _ => Err(self.wrong_type("a string")),
         }
@@ -88,7 +96,7 @@ impl<'a> Item<'a> {
         match choices.iter().find(|(word, _)| word == text) {
             Some((_, value)) => Ok(*value),
             None => {
-                let message = format!("`{}` must be one of {}, not \"{text}\"", self.name, quoted(words.clone()));
+                let message = format!("{} must be one of {}, not \"{text}\"", self.called(), quoted(words.clone()));
                 let near = suggest::nearest(text, words);
                 Err(with_near(self.error(message), near))
             }
@@ -98,7 +106,9 @@ impl<'a> Item<'a> {
     /// The elements, each called after its list.
     pub fn list(&self, wanted: &str) -> Result<Vec<Item<'a>>, InputError> {
         match self.value {
-            DeValue::Array(array) => Ok(array.iter().map(|v| Item::new(self.file, self.name.clone(), v)).collect()),
+            DeValue::Array(array) => {
+                Ok(array.iter().map(|v| Item { in_list: true, ..Item::new(self.file, self.name.clone(), v) }).collect())
+            }
             _ => Err(self.wrong_type(wanted)),
         }
     }
@@ -121,7 +131,7 @@ pub fn kind_of(value: &DeValue) -> &'static str {
     match value {
         DeValue::String(_) => "a string",
         DeValue::Integer(_) => "a whole number",
-        DeValue::Float(_) => "a number",
+        DeValue::Float(_) => "a decimal number",
         DeValue::Boolean(true) => "true",
         DeValue::Boolean(false) => "false",
         DeValue::Datetime(_) => "a date",

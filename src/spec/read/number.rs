@@ -11,19 +11,19 @@ impl Item<'_> {
     pub fn number(&self, range: NumberRange) -> Result<f64, InputError> {
         let value = self.any_number()?;
         if !value.is_finite() {
-            return Err(self.error(format!("`{}` must be a finite number, not {value}", self.name)));
+            return Err(self.error(format!("{} must be a finite number, not {value}", self.called())));
         }
         if !range.contains(value) {
-            return Err(self.error(format!("`{}` must be {range}, not {value}", self.name)));
+            return Err(self.error(format!("{} must be {range}, not {value}", self.called())));
         }
         if value.abs() > LARGEST {
             return Err(self
-                .error(format!("`{}` is too large: {value:e}", self.name))
+                .error(format!("{} is too large: {value:e}", self.called()))
                 .help(format!("numbers reach up to {LARGEST:e}; use larger units")));
         }
         if range.open && range.min == Some(0.0) && value < SMALLEST_SIZE {
             return Err(self
-                .error(format!("`{}` is too small: {value:e}", self.name))
+                .error(format!("{} is too small: {value:e}", self.called()))
                 .help(format!("the smallest size is {SMALLEST_SIZE:e}; use smaller units")));
         }
         Ok(value)
@@ -46,7 +46,7 @@ impl Item<'_> {
             return Err(self.wrong_type("a whole number"));
         };
         i64::from_str_radix(integer.as_str(), integer.radix())
-            .map_err(|_| self.error(format!("`{}` is too large: {integer}", self.name)))
+            .map_err(|_| self.error(format!("{} is too large: {integer}", self.called())))
     }
 
     /// A whole number within both ends.
@@ -55,7 +55,7 @@ impl Item<'_> {
         if (min..=max).contains(&value) {
             return Ok(value);
         }
-        Err(self.error(format!("`{}` must be a whole number from {min} to {max}, not {value}", self.name)))
+        Err(self.error(format!("{} must be a whole number from {min} to {max}, not {value}", self.called())))
     }
 
     /// A list of exactly `N` numbers.
@@ -63,7 +63,7 @@ impl Item<'_> {
         let wanted = format!("a list of {N} numbers");
         let items = self.list(&wanted)?;
         if items.len() != N {
-            return Err(self.error(format!("`{}` must be {wanted}, but has {}", self.name, items.len())));
+            return Err(self.error(format!("{} must be {wanted}, but has {}", self.called(), items.len())));
         }
         let mut values = [0.0; N];
         for (value, item) in values.iter_mut().zip(&items) {
@@ -80,7 +80,7 @@ impl Item<'_> {
     pub fn direction(&self) -> Result<[f64; 3], InputError> {
         let vector = self.vector()?;
         if length(vector) < SMALLEST_SIZE {
-            return Err(self.error(format!("`{}` must not have length zero", self.name)).help("it is a direction"));
+            return Err(self.error(format!("{} must not have length zero", self.called())).help("it is a direction"));
         }
         Ok(vector)
     }
@@ -89,7 +89,11 @@ impl Item<'_> {
     pub fn points(&self, least: usize) -> Result<Vec<[f64; 3]>, InputError> {
         let points = self.list("a list of points [x, y, z]")?;
         if points.len() < least {
-            return Err(self.error(format!("`{}` needs at least {least} points, but has {}", self.name, points.len())));
+            return Err(self.error(format!(
+                "{} needs at least {least} points, but has {}",
+                self.called(),
+                points.len()
+            )));
         }
         points.iter().map(Item::vector).collect()
     }
@@ -100,7 +104,7 @@ impl Item<'_> {
         match self.list(WANTED)?.len() {
             3 => Ok(Rotation::Euler(self.vector()?)),
             4 => self.quaternion(),
-            n => Err(self.error(format!("`{}` must be {WANTED}, but has {n} numbers", self.name))),
+            n => Err(self.error(format!("{} must be {WANTED}, but has {n} numbers", self.called()))),
         }
     }
 
@@ -108,7 +112,7 @@ impl Item<'_> {
         let [x, y, z, w] = self.numbers(NumberRange::ANY)?;
         if x.hypot(y).hypot(z.hypot(w)) < SMALLEST_SIZE {
             return Err(self
-                .error(format!("`{}` is a quaternion of length zero", self.name))
+                .error(format!("{} is a quaternion of length zero", self.called()))
                 .help("no rotation is [0, 0, 0, 1]"));
         }
         Ok(Rotation::Quaternion([x, y, z, w]))

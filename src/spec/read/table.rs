@@ -88,13 +88,15 @@ pub fn only_entry<'a>(item: &Item<'a>, wanted: &str) -> Result<Item<'a>, InputEr
     };
     match entries(map).as_slice() {
         [(key, span, value)] => {
-            let inner = Item::new(item.file, *key, value);
+            let mut inner = Item::new(item.file, *key, value);
+            inner.key = span.clone();
             // A table written with dotted keys has no place of its own.
-            Ok(Item { key: span.clone(), span: span.start.min(inner.span.start)..inner.span.end.max(span.end), ..inner })
+            inner.span = span.start.min(inner.span.start)..inner.span.end.max(span.end);
+            Ok(inner)
         }
-        [] => Err(item.error(format!("`{}` is empty", item.name)).help(format!("it must be {wanted}"))),
+        [] => Err(item.error(format!("{} is empty", item.called())).help(format!("it must be {wanted}"))),
         [(first, ..), (second, ..), ..] => Err(item
-            .error(format!("`{}` has both `{first}` and `{second}`", item.name))
+            .error(format!("{} has both `{first}` and `{second}`", item.called()))
             .help(format!("it must be {wanted}"))),
     }
 }
