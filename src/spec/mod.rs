@@ -1,9 +1,16 @@
 //! The lens-spec file: its typed mirror, exactly as written, before any model is opened.
 
+pub mod catalogue;
 mod color;
 mod pattern;
+mod range;
+mod read;
 mod types;
 
 pub use color::Color;
 pub use pattern::Pattern;
+pub use range::NumberRange;
 pub use types::*;
+
+#[cfg(test)]
+pub(crate) use read::keys;

@@ -1,0 +1,57 @@
+//! An [`InputError`] with the lines of the file it points into.
+
+use std::fmt;
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+
+use crate::InputError;
+
+/// The error as a block of text, at most `width` columns wide; colours only where the terminal shows them.
+pub fn report(error: &InputError, width: usize, color: bool) -> String {
+    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(width).with_links(false);
+    let mut text = String::new();
+    match handler.render_report(&mut text, &Report::new(error)) {
+        Ok(()) => text,
+        Err(fmt::Error) => error.to_string(),
+    }
+}
+
+/// [`InputError`] as miette sees it.
+#[derive(Debug)]
+struct Report<'a> {
+    error: &'a InputError,
+    source: Option<NamedSource<String>>,
+}
+
+impl<'a> Report<'a> {
+    fn new(error: &'a InputError) -> Self {
+        let named = |source: &crate::spec::Source| NamedSource::new(&source.name, source.text.to_string());
+        Self { error, source: error.source_text.as_ref().map(named) }
+    }
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.error.message)
+    }
+}
+
+impl std::error::Error for Report<'_> {}
+
+impl Diagnostic for Report<'_> {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.error.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = |(span, text): &(std::ops::Range<usize>, String)| {
+            LabeledSpan::new(Some(text.clone()), span.start, span.end.saturating_sub(span.start))
+        };
+        Some(Box::new(self.error.labels.iter().map(label)))
+    }
+}

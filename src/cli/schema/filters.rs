@@ -1,0 +1,71 @@
+//! Schemas of the filters, from the catalogue.
+
+use serde_json::{Map, Value, json};
+
+use super::kinds::{described, number, numbers, patterns, reference, table, text, vector};
+use crate::spec::NumberRange;
+use crate::spec::catalogue::{FILTERS, FilterRow, Param, ParamDefault, ParamKind};
+
+/// One filter: a bare name, or a table with one key.
+pub fn filter() -> Value {
+    let names: Vec<&str> = FILTERS.iter().filter(|row| row.stands_alone()).map(|row| row.name).collect();
+    let tables: Map<String, Value> = FILTERS.iter().map(|row| (row.name.to_owned(), parameters(row))).collect();
+    json!({
+        "description": "A filter's name, or a table with its name as the only key.",
+        "anyOf": [
+            { "enum": names },
+            {
+                "type": "object",
+                "additionalProperties": false,
+                "minProperties": 1,
+                "maxProperties": 1,
+                "properties": tables,
+            },
+        ],
+    })
+}
+
+fn parameters(row: &FilterRow) -> Value {
+    let properties: Map<String, Value> =
+        row.params.iter().map(|param| (param.name.to_owned(), parameter(row, param))).collect();
+    let required: Vec<&str> =
+        row.params.iter().filter(|param| param.default == ParamDefault::Required).map(|param| param.name).collect();
+    let mut schema = table(&required, properties.into());
+    if row.name == "show" {
+        schema["minProperties"] = json!(1);
+        schema["maxProperties"] = json!(1);
+    }
+    described(schema, &with_state(row.help, row.built), Value::Null)
+}
+
+fn parameter(row: &FilterRow, param: &Param) -> Value {
+    let (default, meaning) = match param.default {
+        ParamDefault::Number(value) => (value.into(), String::new()),
+        ParamDefault::Color(text) | ParamDefault::Text(text) => (text.into(), String::new()),
+        ParamDefault::Bool(value) => (value.into(), String::new()),
+        ParamDefault::Meaning(words) => (Value::Null, format!("; default: {words}")),
+        ParamDefault::Required => (Value::Null, String::new()),
+    };
+    let help = format!("{}{meaning}", param.help);
+    described(kind(param.kind), &with_state(&help, param.built || !row.built), default)
+}
+
+fn with_state(help: &str, built: bool) -> String {
+    if built { help.to_owned() } else { format!("{help} (not built yet)") }
+}
+
+fn kind(kind: ParamKind) -> Value {
+    match kind {
+        ParamKind::Number(range) => number(range),
+        ParamKind::Integer(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
+        ParamKind::NumberOrPair(range) => json!({ "anyOf": [number(range), numbers(2, range)] }),
+        ParamKind::Interval => numbers(2, NumberRange::ANY),
+        ParamKind::Vector => vector(),
+        ParamKind::Color => reference("color"),
+        ParamKind::Bool => json!({ "type": "boolean" }),
+        ParamKind::Text | ParamKind::File => text(),
+        ParamKind::Choice(words) => json!({ "enum": words }),
+        ParamKind::Patterns => patterns(),
+        ParamKind::FreeTable => json!({ "type": "object" }),
+    }
+}

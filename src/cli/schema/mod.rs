@@ -1,0 +1,41 @@
+//! `lenspeel schema`: a JSON Schema (draft 2020-12) of the spec file, for editors.
+
+mod filters;
+mod kinds;
+mod lens;
+mod shapes;
+mod tables;
+
+use serde_json::{Value, json};
+
+/// The schema of a whole spec file.
+pub fn schema() -> Value {
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "lenspeel spec, version 1",
+        "description": "A scene, the lenses over it, and how it is seen.",
+        "type": "object",
+        "additionalProperties": false,
+        "required": ["scene"],
+        "properties": {
+            "version": { "description": "Of the format.", "const": 1 },
+            "scene": tables::scene(),
+            "camera": tables::camera(),
+            "image": tables::image(),
+            "light": tables::light(),
+            "lens": { "description": "Lenses, in file order.", "type": "array", "maxItems": 256, "items": lens::lens() },
+            "overlap": { "description": "Explicit styles for overlaps.", "type": "array", "items": lens::overlap() },
+            "animation": tables::animation(),
+        },
+        "$defs": {
+            "color": kinds::color(),
+            "rotation": kinds::rotation(),
+            "shape": shapes::shape(),
+            "filter": filters::filter(),
+            "matches": lens::matches(),
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,145 @@
+//! The catalogue itself, in the order of the format's table.
+
+use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
+use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
+use super::ParamKind::{Bool, Choice, Color, File, FreeTable, Interval, Number, NumberOrPair, Patterns, Text, Vector};
+use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
+use crate::spec::NumberRange;
+
+const PIXELS: ParamKind = Number(NumberRange::closed(0.0, 1000.0));
+const UNIT: ParamKind = Number(NumberRange::UNIT);
+const OWN: ParamDefault = Meaning("the surface's own");
+const FITTED: ParamDefault = Meaning("fitted to what is seen");
+const EVERYTHING: ParamDefault = Meaning("everything");
+
+const fn param(name: &'static str, kind: ParamKind, default: ParamDefault, help: &'static str) -> Param {
+    Param { name, kind, default, built: true, help }
+}
+
+/// A parameter that waits for its work.
+const fn later(param: Param) -> Param {
+    Param { built: false, ..param }
+}
+
+const fn built(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
+    FilterRow { name, kind, moves: false, built: true, help, params }
+}
+
+/// A filter that waits for its work.
+const fn planned(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
+    FilterRow { built: false, ..built(name, kind, help, params) }
+}
+
+const fn mover(row: FilterRow) -> FilterRow {
+    FilterRow { moves: true, ..row }
+}
+
+/// All filters, in the order of the format's table.
+pub const FILTERS: &[FilterRow] = &[
+    built("wireframe", Coverage, "draws triangle edges, anti-aliased", WIREFRAME),
+    planned("points", Coverage, "draws vertices as discs", POINTS),
+    built("erase", Content, "removes what it matches", ERASE),
+    built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
+    planned("lod", Content, "shows a simplified version", LOD),
+    mover(planned("magnify", Content, "enlarges what is inside", MAGNIFY)),
+    mover(planned("displace", Content, "moves matched nodes", DISPLACE)),
+    built("opacity", Surface, "multiplies the opacity", OPACITY),
+    planned("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
+    built("tint", Colour, "mixes a colour in", TINT),
+    built("grayscale", Colour, "takes the colour out", GRAYSCALE),
+    built("invert", Colour, "inverts the colour", INVERT),
+    planned("brightness", Colour, "multiplies the brightness", BRIGHTNESS),
+    built("unlit", Surface, "no lighting", UNLIT),
+    built("material", Surface, "overrides the material", MATERIAL),
+    built("texture", Surface, "replaces the base colour texture", TEXTURE),
+    built("normals", Surface, "false colour by the surface normal", NORMALS),
+    planned("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
+    planned("height", Surface, "false colour by height", FALSE_COLOR),
+    planned("curvature", Surface, "false colour by curvature", FALSE_COLOR),
+    planned("attribute", Surface, "false colour by a vertex attribute", ATTRIBUTE),
+    planned("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
+    planned("toon", Surface, "quantised lighting", &[]),
+    planned("hatch", Surface, "hatched lighting", &[]),
+    planned("edges", Screen, "silhouettes, creases and region borders", EDGES),
+    planned("blur", Screen, "blurs, to push context back", BLUR),
+    planned("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
+    planned("wgsl", Custom, "a filter of your own, in WGSL", WGSL),
+];
+
+const WIREFRAME: &[Param] = &[
+    param("width", PIXELS, Num(1.0), "of the lines, pixels"),
+    param("color", Color, OWN, "of the lines"),
+    param("fill", UNIT, Num(0.0), "opacity between the lines"),
+    later(param("hidden", Bool, Yes(true), "draw the lines that surfaces would hide")),
+];
+const POINTS: &[Param] = &[param("size", PIXELS, Num(3.0), "of the discs, pixels")];
+const ERASE: &[Param] = &[
+    param("nodes", Patterns, EVERYTHING, "nodes that go"),
+    param("materials", Patterns, EVERYTHING, "materials that go"),
+    later(param("cap", Text, Meaning("open"), "closes cut solids: a colour, \"own\" or a hatch")),
+];
+const SHOW: &[Param] = &[
+    param("alternate", Text, Meaning("give this or nodes"), "a name under [scene.alternates]"),
+    param("nodes", Patterns, Meaning("give this or alternate"), "exactly these nodes, hidden ones too"),
+];
+const LOD: &[Param] = &[param("ratio", UNIT, Num(0.1), "of triangles kept")];
+const MAGNIFY: &[Param] = &[
+    param("factor", Number(NumberRange::POSITIVE), Num(2.0), "how many times larger"),
+    param("center", Vector, Meaning("the lens's centre"), "fixed point, in the shape's space"),
+];
+const DISPLACE: &[Param] = &[
+    param("nodes", Patterns, EVERYTHING, "nodes that move"),
+    param("offset", Vector, Meaning("none"), "by this much, scene units"),
+    param("explode", Number(NumberRange::ANY), Meaning("none"), "by this times the way from the lens's centre"),
+];
+const OPACITY: &[Param] = &[param("value", UNIT, Num(0.5), "factor")];
+const GHOST: &[Param] =
+    &[param("strength", UNIT, Num(1.0), "how clear it gets face on"), param("color", Color, OWN, "of the surface")];
+const TINT: &[Param] =
+    &[param("color", Color, Hex("#3fa7ff"), "what is mixed in"), param("amount", UNIT, Num(0.5), "how much")];
+const GRAYSCALE: &[Param] = &[param("amount", UNIT, Num(1.0), "how much")];
+const INVERT: &[Param] = &[param("amount", UNIT, Num(1.0), "how much")];
+const BRIGHTNESS: &[Param] =
+    &[param("amount", Number(NumberRange::NOT_NEGATIVE), Num(1.5), "factor; 1 changes nothing")];
+const UNLIT: &[Param] = &[param("color", Color, OWN, "of the surface")];
+const MATERIAL: &[Param] = &[
+    param("color", Color, OWN, "base colour"),
+    param("metallic", UNIT, OWN, "1 for metals"),
+    param("roughness", UNIT, OWN, "0 is a mirror"),
+    param("emissive", Color, OWN, "light of its own"),
+];
+const TEXTURE: &[Param] = &[
+    param("file", File, Required, "PNG or JPEG"),
+    param("uv", Choice(UV), Word("mesh"), "where the texture lies"),
+    param("scale", NumberOrPair(NumberRange::ANY), Num(1.0), "repetitions over the unit of the mapping"),
+];
+const UV: &[&str] = &["mesh", "planar-x", "planar-y", "planar-z", "box", "sphere"];
+const NORMALS: &[Param] = &[
+    later(param("colormap", Text, Meaning("x, y, z as red, green, blue"), "colours of the values")),
+    later(param("range", Interval, Meaning("-1 to 1"), "values at the ends of the colours")),
+];
+const FALSE_COLOR: &[Param] = &[
+    param("colormap", Text, Word("viridis"), "colours of the values"),
+    param("range", Interval, FITTED, "values at the ends of the colours"),
+];
+const ATTRIBUTE: &[Param] = &[
+    param("name", Text, Required, "of the attribute, such as _TEMPERATURE"),
+    param("colormap", Text, Word("viridis"), "colours of the values"),
+    param("range", Interval, FITTED, "values at the ends of the colours"),
+];
+const CONTOURS: &[Param] = &[
+    param("spacing", Number(NumberRange::POSITIVE), Meaning("a tenth of the range"), "between lines, scene units"),
+    param("width", PIXELS, Num(1.0), "of the lines, pixels"),
+    param("quantity", Text, Word("height"), "what the lines are of"),
+];
+const EDGES: &[Param] = &[
+    param("color", Color, Hex("#000000"), "of the lines"),
+    param("width", PIXELS, Num(1.0), "of the lines, pixels"),
+    param("threshold", UNIT, Num(0.1), "what counts as an edge"),
+];
+const BLUR: &[Param] = &[param("radius", PIXELS, Num(4.0), "pixels")];
+const PIXELATE: &[Param] = &[param("radius", PIXELS, Num(4.0), "pixels")];
+const WGSL: &[Param] = &[
+    param("file", File, Required, "with fn filter_surface or fn filter_color"),
+    param("params", FreeTable, Meaning("none"), "checked against the file's Params struct"),
+];

@@ -1,0 +1,300 @@
+//! Filters: a bare name or a one-key table, checked against the catalogue.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use toml::de::{DeTable, DeValue};
+
+use super::item::{File, Item, kind_of};
+use super::suggest;
+use super::table::{entries, only_entry};
+use super::{color, later};
+use crate::InputError;
+use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
+use crate::spec::{At, Color, Filter, NumberRange, Pattern, ShowWhat, UvMapping};
+
+/// A parameter's value, of the type its [`ParamKind`] says.
+#[derive(Debug, Clone, PartialEq)]
+enum Value {
+    Number(f64),
+    Pair([f64; 2]),
+    Color(Color),
+    Bool(bool),
+    Text(At<String>),
+    File(At<PathBuf>),
+    Patterns(Vec<At<Pattern>>),
+    /// Checked, but no built filter reads it.
+    Other,
+}
+
+/// The filters of a lens or a rule, first to act first.
+pub fn list(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
+    item.list("a list of filters, such as [\"wireframe\"]")?.iter().map(one).collect()
+}
+
+/// The filters of an overlap rule, which may not move content (SEMANTICS 4).
+pub fn list_that_stays(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
+    for filter in item.list("a list of filters, such as [\"unlit\"]")? {
+        let (row, item, _) = named(&filter)?;
+        if row.moves {
+            return Err(item
+                .error_at_key(format!("filter `{}` moves content, which an overlap rule may not", row.name))
+                .help("move it to a lens"));
+        }
+    }
+    list(item)
+}
+
+fn one(item: &Item) -> Result<At<Filter>, InputError> {
+    let (row, item, table) = named(item)?;
+    let params = Params::read(row, &item, table)?;
+    if !row.built {
+        return Err(later::filter(&item, row));
+    }
+    Ok(item.at(build(row, &params)?))
+}
+
+/// The catalogue's row of a filter, its place, and its table of parameters if it has one.
+fn named<'a>(item: &Item<'a>) -> Result<(&'static FilterRow, Item<'a>, Option<&'a DeTable<'a>>), InputError> {
+    if let DeValue::String(name) = item.value {
+        return Ok((row(name, item)?, item.clone(), None));
+    }
+    let inner = only_entry(item, "a filter's name, or one such as { tint = { amount = 0.4 } }")?;
+    let row = row(&inner.name, &inner)?;
+    match inner.value {
+        DeValue::Table(map) => Ok((row, inner, Some(map))),
+        _ => Err(not_parameters(&inner, row)),
+    }
+}
+
+fn row(name: &str, item: &Item) -> Result<&'static FilterRow, InputError> {
+    catalogue::filter(name).ok_or_else(|| {
+        let names = FILTERS.iter().map(|row| row.name);
+        item.error_at_key(format!("there is no filter `{name}`")).help(suggest::help(name, names))
+    })
+}
+
+fn not_parameters(item: &Item, row: &FilterRow) -> InputError {
+    let example = match row.params {
+        [] => "{}".to_owned(),
+        [first, ..] => format!("{{ {} = ... }}", first.name),
+    };
+    item.error(format!("filter `{}` takes a table of parameters, not {}", row.name, kind_of(item.value)))
+        .help(format!("write {{ {} = {example} }}", row.name))
+}
+
+/// The values of one filter's parameters, defaults filled in.
+struct Params<'a> {
+    file: &'a File<'a>,
+    row: &'static FilterRow,
+    /// `None` where the default is a meaning rather than a value.
+    values: Vec<(&'static str, Option<Value>)>,
+    span: Range<usize>,
+}
+
+impl<'a> Params<'a> {
+    fn read(row: &'static FilterRow, item: &Item<'a>, table: Option<&'a DeTable<'a>>) -> Result<Self, InputError> {
+        let mut params = Self { file: item.file, row, values: Vec::new(), span: item.span.clone() };
+        let given = table.map(entries).unwrap_or_default();
+        for (key, span, _) in &given {
+            if row.param(key).is_none() {
+                return Err(params.unknown(key, span.clone()));
+            }
+        }
+        for param in row.params {
+            let value = match given.iter().find(|(key, ..)| *key == param.name) {
+                Some((_, _, value)) => Some(params.given(param, &Item::new(item.file, param.name, value))?),
+                None => params.default(param)?,
+            };
+            params.values.push((param.name, value));
+        }
+        Ok(params)
+    }
+
+    fn unknown(&self, key: &str, span: Range<usize>) -> InputError {
+        let error = InputError::at(self.file.source, span, format!("filter `{}` has no `{key}`", self.row.name));
+        match self.row.params {
+            [] => error.help("it has no parameters"),
+            params => error.help(suggest::help(key, params.iter().map(|param| param.name))),
+        }
+    }
+
+    fn given(&self, param: &Param, item: &Item) -> Result<Value, InputError> {
+        let value = read(param.kind, item)?;
+        let is_default = matches!((&value, param.default), (Value::Bool(a), ParamDefault::Bool(b)) if *a == b);
+        if self.row.built && !param.built && !is_default {
+            return Err(later::param(item, self.row, param));
+        }
+        Ok(value)
+    }
+
+    fn default(&self, param: &Param) -> Result<Option<Value>, InputError> {
+        Ok(match (param.default, param.kind) {
+            (ParamDefault::Number(x), ParamKind::NumberOrPair(_)) => Some(Value::Pair([x, x])),
+            (ParamDefault::Number(x), _) => Some(Value::Number(x)),
+            (ParamDefault::Color(text), _) => color::parse(text).map(Value::Color),
+            (ParamDefault::Text(text), _) => Some(Value::Text(At::new(text.to_owned(), self.span.clone()))),
+            (ParamDefault::Bool(value), _) => Some(Value::Bool(value)),
+            (ParamDefault::Meaning(_), _) => None,
+            (ParamDefault::Required, _) => {
+                return Err(self
+                    .error(format!("filter `{}` needs `{}`", self.row.name, param.name))
+                    .help(format!("such as {{ {} = {{ {} = ... }} }}: {}", self.row.name, param.name, param.help)));
+            }
+        })
+    }
+
+    fn error(&self, message: String) -> InputError {
+        InputError::at(self.file.source, self.span.clone(), message)
+    }
+
+    fn get(&self, name: &str) -> Option<&Value> {
+        self.values.iter().find(|(key, _)| *key == name)?.1.as_ref()
+    }
+
+    /// A number where the row has a default number or the file one; else `None`.
+    fn number(&self, name: &str) -> Option<f32> {
+        match self.get(name)? {
+            Value::Number(value) => Some(*value as f32),
+            _ => None,
+        }
+    }
+
+    fn color(&self, name: &str) -> Option<Color> {
+        match self.get(name)? {
+            Value::Color(color) => Some(*color),
+            _ => None,
+        }
+    }
+
+    fn patterns(&self, name: &str) -> Option<Vec<At<Pattern>>> {
+        match self.get(name)? {
+            Value::Patterns(patterns) => Some(patterns.clone()),
+            _ => None,
+        }
+    }
+
+    fn text(&self, name: &str) -> Option<At<String>> {
+        match self.get(name)? {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+
+    fn path(&self, name: &str) -> Option<At<PathBuf>> {
+        match self.get(name)? {
+            Value::File(path) => Some(path.clone()),
+            _ => None,
+        }
+    }
+
+    fn pair(&self, name: &str) -> Option<[f32; 2]> {
+        match self.get(name)? {
+            Value::Pair(pair) => Some(pair.map(|x| x as f32)),
+            _ => None,
+        }
+    }
+}
+
+fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
+    Ok(match kind {
+        ParamKind::Number(range) => Value::Number(item.number(range)?),
+        ParamKind::Integer(min, max) => Value::Number(item.integer(min, max)? as f64),
+        ParamKind::NumberOrPair(range) => Value::Pair(number_or_pair(item, range)?),
+        ParamKind::Interval => Value::Pair(interval(item)?),
+        ParamKind::Color => Value::Color(item.color()?),
+        ParamKind::Bool => Value::Bool(item.boolean()?),
+        ParamKind::Text => Value::Text(item.at(item.text()?.to_owned())),
+        ParamKind::File => Value::File(item.path()?),
+        ParamKind::Choice(words) => {
+            let choices: Vec<_> = words.iter().map(|word| (*word, *word)).collect();
+            Value::Text(item.at(item.choice(&choices)?.to_owned()))
+        }
+        ParamKind::Patterns => Value::Patterns(item.patterns()?),
+        ParamKind::Vector => item.vector().map(|_| Value::Other)?,
+        ParamKind::FreeTable => match item.value {
+            DeValue::Table(_) => Value::Other,
+            _ => return Err(item.wrong_type("a table")),
+        },
+    })
+}
+
+fn number_or_pair(item: &Item, range: NumberRange) -> Result<[f64; 2], InputError> {
+    match item.value {
+        DeValue::Array(_) => item.numbers(range),
+        _ => item.number(range).map(|x| [x, x]),
+    }
+}
+
+fn interval(item: &Item) -> Result<[f64; 2], InputError> {
+    let [low, high] = item.numbers(NumberRange::ANY)?;
+    if low < high {
+        return Ok([low, high]);
+    }
+    Err(item.error(format!("`{}` must be [low, high] with low below high, not [{low}, {high}]", item.name)))
+}
+
+fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
+    let filter = match row.name {
+        "wireframe" => wireframe(params),
+        "erase" => Some(Filter::Erase {
+            nodes: params.patterns("nodes").unwrap_or_default(),
+            materials: params.patterns("materials").unwrap_or_default(),
+        }),
+        "show" => Some(Filter::Show(show(params)?)),
+        "opacity" => params.number("value").map(|value| Filter::Opacity { value }),
+        "tint" => {
+            params.color("color").zip(params.number("amount")).map(|(color, amount)| Filter::Tint { color, amount })
+        }
+        "grayscale" => params.number("amount").map(|amount| Filter::Grayscale { amount }),
+        "invert" => params.number("amount").map(|amount| Filter::Invert { amount }),
+        "unlit" => Some(Filter::Unlit { color: params.color("color") }),
+        "material" => Some(material(params)),
+        "texture" => texture(params),
+        "normals" => Some(Filter::Normals),
+        _ => None,
+    };
+    filter.ok_or_else(|| params.error(format!("filter `{}` cannot be made from its catalogue row", row.name)))
+}
+
+fn wireframe(params: &Params) -> Option<Filter> {
+    Some(Filter::Wireframe {
+        width: params.number("width")?,
+        color: params.color("color"),
+        fill: params.number("fill")?,
+    })
+}
+
+fn show(params: &Params) -> Result<ShowWhat, InputError> {
+    const REMEDY: &str = "write { show = { alternate = \"name\" } } or { show = { nodes = [\"name\"] } }";
+    match (params.text("alternate"), params.patterns("nodes")) {
+        (Some(alternate), None) => Ok(ShowWhat::Alternate(alternate)),
+        (None, Some(nodes)) => Ok(ShowWhat::Nodes(nodes)),
+        (None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
+        (Some(_), Some(_)) => {
+            Err(params.error("filter `show` takes `alternate` or `nodes`, not both".to_owned()).help(REMEDY))
+        }
+    }
+}
+
+fn material(params: &Params) -> Filter {
+    Filter::Material {
+        color: params.color("color"),
+        metallic: params.number("metallic"),
+        roughness: params.number("roughness"),
+        emissive: params.color("emissive"),
+    }
+}
+
+fn texture(params: &Params) -> Option<Filter> {
+    let uv = match params.text("uv")?.value.as_str() {
+        "mesh" => UvMapping::Mesh,
+        "planar-x" => UvMapping::PlanarX,
+        "planar-y" => UvMapping::PlanarY,
+        "planar-z" => UvMapping::PlanarZ,
+        "box" => UvMapping::Box,
+        "sphere" => UvMapping::Sphere,
+        _ => return None,
+    };
+    Some(Filter::Texture { file: params.path("file")?, uv, scale: params.pair("scale")? })
+}

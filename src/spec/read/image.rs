@@ -1,0 +1,50 @@
+//! `[image]`.
+
+use toml::de::DeValue;
+
+use super::item::Item;
+use super::keys;
+use super::table::Table;
+use crate::InputError;
+use crate::spec::{Color, ImageSpec};
+
+/// The most pixels along one side; their product is at most 2^28.
+const LARGEST_SIDE: i64 = 16384;
+
+pub fn read(item: &Item) -> Result<ImageSpec, InputError> {
+    let table = Table::open(item, "[image]", keys::IMAGE)?;
+    let default = ImageSpec::default();
+    Ok(ImageSpec {
+        size: table.read("size", size)?.unwrap_or(default.size),
+        samples: table.read("samples", samples)?.unwrap_or(default.samples),
+        background: table.read("background", background)?.unwrap_or(default.background),
+    })
+}
+
+fn size(item: &Item) -> Result<[u32; 2], InputError> {
+    const WANTED: &str = "[width, height] in pixels";
+    let sides = item.list(WANTED)?;
+    let [width, height] = sides.as_slice() else {
+        return Err(item.error(format!("`size` must be {WANTED}, but has {} numbers", sides.len())));
+    };
+    Ok([side(width)?, side(height)?])
+}
+
+fn side(item: &Item) -> Result<u32, InputError> {
+    item.integer(1, LARGEST_SIDE).map(|side| side as u32)
+}
+
+fn samples(item: &Item) -> Result<u32, InputError> {
+    match item.integer(i64::MIN, i64::MAX)? {
+        samples @ (1 | 4 | 9 | 16) => Ok(samples as u32),
+        other => Err(item.error(format!("`samples` must be 1, 4, 9 or 16, not {other}"))),
+    }
+}
+
+/// `None` is transparent.
+fn background(item: &Item) -> Result<Option<Color>, InputError> {
+    match item.value {
+        DeValue::String(text) if text == "transparent" => Ok(None),
+        _ => item.color().map(Some),
+    }
+}

@@ -1,0 +1,62 @@
+//! The keys of every table of the format but the filters', which the catalogue lists.
+//! The readers and the JSON Schema are held to these lists.
+
+pub const DOCUMENT: &[&str] = &["version", "scene", "camera", "image", "light", "lens", "overlap", "animation"];
+pub const SCENE: &[&str] = &["file", "scene", "time", "hide", "backfaces", "alternates"];
+pub const CAMERA: &[&str] = &["eye", "target", "up", "fov_y", "orthographic_height", "near", "far", "node"];
+pub const IMAGE: &[&str] = &["size", "samples", "background"];
+pub const LIGHT: &[&str] = &["ambient", "directional"];
+pub const DIRECTIONAL: &[&str] = &["direction", "color", "intensity"];
+pub const LENS: &[&str] = &[
+    "name",
+    "enabled",
+    "shape",
+    "attach",
+    "translation",
+    "rotation",
+    "scale",
+    "filters",
+    "over",
+    "under",
+    "hides",
+    "overlap",
+    "priority",
+    "by",
+    "only",
+    "except",
+    "soft",
+    "glass",
+];
+pub const ATTACH: &[&str] = &["node"];
+pub const MATCHES: &[&str] = &["nodes", "materials"];
+pub const GLASS: &[&str] = &["color", "opacity", "rim", "outline"];
+pub const OVERLAP: &[&str] = &["when", "filters"];
+pub const ANIMATION: &[&str] = &["duration", "fps", "track"];
+pub const TRACK: &[&str] = &["target", "keys", "ease"];
+
+/// Shapes and their keys, in the order of the format's table.
+pub const SHAPES: &[(&str, &[&str])] = &[
+    ("sphere", SPHERE),
+    ("ellipsoid", ELLIPSOID),
+    ("box", BOX),
+    ("cylinder", CYLINDER),
+    ("cone", CONE),
+    ("capsule", CAPSULE),
+    ("polytope", POLYTOPE),
+    ("hull", HULL),
+    ("mesh", MESH),
+    ("flat", FLAT),
+    ("union", &[]),
+    ("intersection", &[]),
+    ("difference", &[]),
+];
+pub const SPHERE: &[&str] = &["center", "radius"];
+pub const ELLIPSOID: &[&str] = &["center", "radii", "rotation"];
+pub const BOX: &[&str] = &["center", "size", "rotation", "min", "max"];
+pub const CYLINDER: &[&str] = &["from", "to", "radius"];
+pub const CONE: &[&str] = &["from", "to", "from_radius", "to_radius"];
+pub const CAPSULE: &[&str] = &["from", "to", "radius"];
+pub const POLYTOPE: &[&str] = &["planes"];
+pub const HULL: &[&str] = &["points"];
+pub const MESH: &[&str] = &["file", "node", "convex"];
+pub const FLAT: &[&str] = &["corners", "depth"];

@@ -1,0 +1,129 @@
+//! What only the whole file can tell: names that must be unique, and names that must exist.
+
+use std::collections::HashMap;
+
+use super::suggest;
+use crate::InputError;
+use crate::spec::{At, Condition, Filter, LensSpec, Pattern, ShowWhat, Source, Spec};
+
+/// The most lenses of one spec.
+const MOST_LENSES: usize = 256;
+
+pub fn check(spec: &Spec) -> Result<(), InputError> {
+    let links = Links { source: &spec.source, spec };
+    links.count()?;
+    links.unique_names()?;
+    for lens in &spec.lenses {
+        links.lens(lens)?;
+    }
+    for rule in &spec.overlaps {
+        links.condition(&rule.when.value)?;
+        links.filters(&rule.filters)?;
+    }
+    Ok(())
+}
+
+struct Links<'a> {
+    source: &'a Source,
+    spec: &'a Spec,
+}
+
+impl Links<'_> {
+    fn count(&self) -> Result<(), InputError> {
+        let Some(first_too_many) = self.spec.lenses.get(MOST_LENSES) else { return Ok(()) };
+        let message = format!("{} lenses are too many: a spec holds at most {MOST_LENSES}", self.spec.lenses.len());
+        Err(self.error(&first_too_many.name, message))
+    }
+
+    fn unique_names(&self) -> Result<(), InputError> {
+        let mut seen: HashMap<&str, &At<String>> = HashMap::new();
+        for lens in &self.spec.lenses {
+            if let Some(first) = seen.insert(&lens.name.value, &lens.name) {
+                return Err(self
+                    .error(&lens.name, format!("there are two lenses named `{}`", lens.name.value))
+                    .label(first.span.clone(), "the first is here")
+                    .help("rename one of them"));
+            }
+        }
+        Ok(())
+    }
+
+    fn lens(&self, lens: &LensSpec) -> Result<(), InputError> {
+        for (key, patterns) in [("over", &lens.over), ("under", &lens.under), ("hides", &lens.hides)] {
+            for pattern in patterns {
+                self.other_lens(lens, key, pattern)?;
+            }
+        }
+        self.filters(&lens.filters)
+    }
+
+    /// An edge must lead to a lens other than its own (SEMANTICS 3.1).
+    fn other_lens(&self, lens: &LensSpec, key: &str, pattern: &At<Pattern>) -> Result<(), InputError> {
+        let name = &lens.name.value;
+        let others = self.spec.lenses.iter().map(|other| other.name.value.as_str()).filter(|other| other != name);
+        if others.clone().any(|other| pattern.value.matches(other)) {
+            return Ok(());
+        }
+        if !pattern.value.matches(name) {
+            return Err(self.no_match(&format!("`{key}` of lens `{name}` names"), pattern, others));
+        }
+        let message = format!("`{key}` of lens `{name}` names no lens but itself: \"{}\"", pattern.value);
+        Err(self.error(pattern, message).help("name another lens, or leave it out"))
+    }
+
+    fn condition(&self, condition: &Condition) -> Result<(), InputError> {
+        match condition {
+            Condition::Lens(pattern) => {
+                let names = self.spec.lenses.iter().map(|lens| lens.name.value.as_str());
+                match names.clone().any(|name| pattern.value.matches(name)) {
+                    true => Ok(()),
+                    false => Err(self.no_match("`when` names", pattern, names)),
+                }
+            }
+            Condition::Not(inner) => self.condition(inner),
+            Condition::And(left, right) | Condition::Or(left, right) => {
+                self.condition(left)?;
+                self.condition(right)
+            }
+        }
+    }
+
+    fn filters(&self, filters: &[At<Filter>]) -> Result<(), InputError> {
+        for filter in filters {
+            if let Filter::Show(ShowWhat::Alternate(alternate)) = &filter.value {
+                self.alternate(alternate)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn alternate(&self, wanted: &At<String>) -> Result<(), InputError> {
+        let names = self.spec.scene.alternates.iter().map(|(name, _)| name.as_str());
+        if names.clone().any(|name| name == wanted.value) {
+            return Ok(());
+        }
+        let help = match names.clone().next() {
+            Some(_) => suggest::help(&wanted.value, names),
+            None => format!("add it: [scene.alternates] and below it {} = \"file.glb\"", wanted.value),
+        };
+        Err(self.error(wanted, format!("there is no alternate `{}`", wanted.value)).help(help))
+    }
+
+    fn no_match<'n>(
+        &self,
+        what: &str,
+        pattern: &At<Pattern>,
+        names: impl Iterator<Item = &'n str> + Clone,
+    ) -> InputError {
+        let kind = if pattern.value.has_wildcard() { "no lens matches it" } else { "there is none" };
+        let help = match names.clone().next() {
+            Some(_) => suggest::help(&pattern.value.0, names),
+            None => "there is no other lens".to_owned(),
+        };
+        self.error(pattern, format!("{what} \"{}\", but {kind}", pattern.value)).help(help)
+    }
+
+    fn error<T>(&self, place: &At<T>, message: String) -> InputError {
+        InputError::at(self.source, place.span.clone(), message)
+    }
+}

@@ -1,0 +1,20 @@
+//! Text to [`Spec`](super::Spec): TOML with places, then one small reader for each part of the format.
+
+mod camera;
+mod color;
+mod condition;
+mod document;
+mod filter;
+mod image;
+mod item;
+pub(crate) mod keys;
+mod later;
+mod lens;
+mod light;
+mod links;
+mod number;
+mod overlap;
+mod scene;
+mod shape;
+mod suggest;
+mod table;
