@@ -1,0 +1,503 @@
+//! A small glTF 2.0 binary writer: only what the generated scenes use. Typed JSON keeps the key order fixed.
+
+use glam::{DMat3, DVec3};
+use serde::Serialize;
+
+use super::{det, mesh::Mesh};
+
+const FLOAT: u32 = 5126;
+const U8: u32 = 5121;
+const U16: u32 = 5123;
+const U32: u32 = 5125;
+const VERTICES: u32 = 34962;
+const INDICES: u32 = 34963;
+
+/// Builds one file: add images, materials, meshes and nodes, then [`Glb::finish`].
+#[derive(Default)]
+pub struct Glb {
+    json: Document,
+    binary: Vec<u8>,
+}
+
+/// Metallic-roughness material; colours in linear light.
+#[derive(Clone)]
+pub struct Look {
+    pub name: &'static str,
+    pub color: [f32; 4],
+    pub metallic: f32,
+    pub roughness: f32,
+    pub emissive: [f32; 3],
+    /// Index from [`Glb::texture`].
+    pub texture: Option<usize>,
+    pub alpha: Alpha,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub enum Alpha {
+    Opaque,
+    Mask(f32),
+    Blend,
+}
+
+impl Look {
+    /// An opaque surface of an sRGB colour `0xrrggbb`.
+    pub fn new(name: &'static str, hex: u32, metallic: f32, roughness: f32) -> Self {
+        let [r, g, b] = det::rgb(hex);
+        let (emissive, texture, alpha) = ([0.0; 3], None, Alpha::Opaque);
+        Self { name, color: [r, g, b, 1.0], metallic, roughness, emissive, texture, alpha }
+    }
+
+    pub fn blended(mut self, alpha: f32) -> Self {
+        self.color[3] = alpha;
+        self.alpha = Alpha::Blend;
+        self
+    }
+
+    pub fn glowing(mut self, hex: u32) -> Self {
+        self.emissive = det::rgb(hex);
+        self
+    }
+
+    pub fn textured(mut self, texture: usize) -> Self {
+        self.texture = Some(texture);
+        self
+    }
+}
+
+/// Where a node is and what it holds.
+#[derive(Clone, Copy, Default)]
+pub struct Place {
+    pub parent: Option<usize>,
+    pub mesh: Option<usize>,
+    pub at: DVec3,
+    /// Identity where left out.
+    pub turn: Option<DMat3>,
+    pub scale: Option<DVec3>,
+}
+
+impl Place {
+    pub fn mesh(mesh: usize) -> Self {
+        Self { mesh: Some(mesh), ..Self::default() }
+    }
+
+    pub fn under(mut self, parent: usize) -> Self {
+        self.parent = Some(parent);
+        self
+    }
+
+    pub fn at(mut self, x: f64, y: f64, z: f64) -> Self {
+        self.at = DVec3::new(x, y, z);
+        self
+    }
+
+    pub fn turned(mut self, turn: DMat3) -> Self {
+        self.turn = Some(turn);
+        self
+    }
+
+    pub fn scaled(mut self, scale: DVec3) -> Self {
+        self.scale = Some(scale);
+        self
+    }
+}
+
+/// Texture filtering and wrapping as glTF numbers them.
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Sampling {
+    pub mag_filter: u32,
+    pub min_filter: u32,
+    pub wrap_s: u32,
+    pub wrap_t: u32,
+}
+
+impl Sampling {
+    pub const REPEAT: u32 = 10497;
+    pub const MIRROR: u32 = 33648;
+    pub const CLAMP: u32 = 33071;
+    /// Trilinear, repeated in u, clamped in v: for maps of a globe.
+    pub const GLOBE: Self = Self { mag_filter: 9729, min_filter: 9987, wrap_s: Self::REPEAT, wrap_t: Self::CLAMP };
+    pub const SMOOTH: Self = Self { mag_filter: 9729, min_filter: 9987, wrap_s: Self::CLAMP, wrap_t: Self::CLAMP };
+}
+
+/// A light of `KHR_lights_punctual`.
+#[derive(Clone, Serialize)]
+pub struct Light {
+    pub name: &'static str,
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    pub color: [f32; 3],
+    pub intensity: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spot: Option<Spot>,
+}
+
+/// Half angles in radians.
+#[derive(Clone, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Spot {
+    pub inner_cone_angle: f32,
+    pub outer_cone_angle: f32,
+}
+
+impl Glb {
+    /// Embeds an encoded PNG or JPEG and returns a texture that samples it.
+    pub fn texture(&mut self, name: &'static str, encoded: &[u8], sampling: Sampling) -> usize {
+        let view = self.view(encoded, None);
+        let mime_type = if encoded.starts_with(b"\x89PNG") { "image/png" } else { "image/jpeg" };
+        self.json.images.push(ImageJson { name, buffer_view: view, mime_type });
+        self.json.samplers.push(sampling);
+        self.json
+            .textures
+            .push(TextureJson { source: self.json.images.len() - 1, sampler: self.json.samplers.len() - 1 });
+        self.json.textures.len() - 1
+    }
+
+    pub fn material(&mut self, look: Look) -> usize {
+        let (alpha_mode, alpha_cutoff) = match look.alpha {
+            Alpha::Opaque => (None, None),
+            Alpha::Mask(cutoff) => (Some("MASK"), Some(cutoff)),
+            Alpha::Blend => (Some("BLEND"), None),
+        };
+        self.json.materials.push(MaterialJson {
+            name: look.name,
+            pbr_metallic_roughness: PbrJson {
+                base_color_factor: look.color,
+                base_color_texture: look.texture.map(|index| TextureUse { index }),
+                metallic_factor: look.metallic,
+                roughness_factor: look.roughness,
+            },
+            emissive_factor: (look.emissive != [0.0; 3]).then_some(look.emissive),
+            alpha_mode,
+            alpha_cutoff,
+        });
+        self.json.materials.len() - 1
+    }
+
+    /// A mesh of one primitive.
+    pub fn mesh(&mut self, name: &str, mesh: &Mesh, material: usize) -> usize {
+        self.mesh_of(name, &[(mesh, material)])
+    }
+
+    pub fn mesh_of(&mut self, name: &str, parts: &[(&Mesh, usize)]) -> usize {
+        let primitives = parts.iter().map(|(mesh, material)| self.primitive(mesh, *material)).collect();
+        self.json.meshes.push(MeshJson { name: name.to_owned(), primitives });
+        self.json.meshes.len() - 1
+    }
+
+    pub fn node(&mut self, name: &str, place: Place) -> usize {
+        let index = self.json.nodes.len();
+        self.json.nodes.push(NodeJson {
+            name: name.to_owned(),
+            children: Vec::new(),
+            mesh: place.mesh,
+            translation: (place.at != DVec3::ZERO).then(|| short(place.at.to_array())),
+            rotation: place.turn.map(|m| short(det::quaternion(m))),
+            scale: place.scale.map(|s| short(s.to_array())),
+            extensions: None,
+        });
+        match place.parent {
+            Some(parent) => self.json.nodes[parent].children.push(index),
+            None => self.json.scenes[0].nodes.push(index),
+        }
+        index
+    }
+
+    /// A node with a light that shines along its -z.
+    pub fn light(&mut self, place: Place, light: Light) {
+        let node = self.node(light.name, place);
+        let lights = self.json.extensions.get_or_insert_default();
+        self.json.nodes[node].extensions = Some(NodeLights { lights: LightRef { light: lights.lights.lights.len() } });
+        lights.lights.lights.push(light);
+        self.json.extensions_used = vec!["KHR_lights_punctual"];
+    }
+
+    /// The bytes of the file.
+    pub fn finish(mut self) -> Vec<u8> {
+        self.json.buffers.push(BufferJson { byte_length: self.binary.len() });
+        let mut json = serde_json::to_vec(&self.json).expect("plain data serialises");
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let total = 12 + 8 + json.len() + 8 + self.binary.len();
+        let mut out = Vec::with_capacity(total);
+        out.extend(b"glTF");
+        out.extend(2u32.to_le_bytes());
+        out.extend((total as u32).to_le_bytes());
+        for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &self.binary)] {
+            out.extend((chunk.len() as u32).to_le_bytes());
+            out.extend(kind);
+            out.extend(chunk);
+        }
+        out
+    }
+
+    fn primitive(&mut self, mesh: &Mesh, material: usize) -> PrimitiveJson {
+        let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect();
+        let position = self.floats(&positions, "VEC3");
+        let (min, max) = bounds(&positions);
+        self.json.accessors[position].min = Some(min);
+        self.json.accessors[position].max = Some(max);
+        let normals: Vec<[f32; 3]> = mesh.normals.iter().map(|n| n.as_vec3().to_array()).collect();
+        let uv: Vec<[f32; 2]> = mesh.uv.iter().map(|t| t.as_vec2().to_array()).collect();
+        let attributes = Attributes {
+            position,
+            normal: (!normals.is_empty()).then(|| self.floats(&normals, "VEC3")),
+            texcoord: (!uv.is_empty()).then(|| self.floats(&uv, "VEC2")),
+            color: (!mesh.colors.is_empty()).then(|| self.colors(&mesh.colors)),
+        };
+        PrimitiveJson { attributes, indices: self.indices(mesh), material }
+    }
+
+    fn floats<const N: usize>(&mut self, values: &[[f32; N]], kind: &'static str) -> usize {
+        let bytes: Vec<u8> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+        self.accessor(&bytes, VERTICES, FLOAT, values.len(), kind)
+    }
+
+    fn colors(&mut self, values: &[[u8; 4]]) -> usize {
+        let accessor = self.accessor(values.as_flattened(), VERTICES, U8, values.len(), "VEC4");
+        self.json.accessors[accessor].normalized = Some(true);
+        accessor
+    }
+
+    fn indices(&mut self, mesh: &Mesh) -> usize {
+        let indices = mesh.triangles.as_flattened();
+        // 65535 is the restart index of 16 bits.
+        let narrow = mesh.positions.len() < 65535;
+        let bytes: Vec<u8> = if narrow {
+            indices.iter().flat_map(|i| (*i as u16).to_le_bytes()).collect()
+        } else {
+            indices.iter().flat_map(|i| i.to_le_bytes()).collect()
+        };
+        self.accessor(&bytes, INDICES, if narrow { U16 } else { U32 }, indices.len(), "SCALAR")
+    }
+
+    fn accessor(&mut self, bytes: &[u8], target: u32, component: u32, count: usize, kind: &'static str) -> usize {
+        let buffer_view = self.view(bytes, Some(target));
+        self.json.accessors.push(AccessorJson {
+            buffer_view,
+            component_type: component,
+            normalized: None,
+            count,
+            kind,
+            min: None,
+            max: None,
+        });
+        self.json.accessors.len() - 1
+    }
+
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        let view = ViewJson { buffer: 0, byte_offset: self.binary.len(), byte_length: bytes.len(), target };
+        self.binary.extend(bytes);
+        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
+        self.json.buffer_views.push(view);
+        self.json.buffer_views.len() - 1
+    }
+}
+
+fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
+    let start = ([f32::MAX; 3], [f32::MIN; 3]);
+    positions.iter().fold(start, |(min, max), p| {
+        (std::array::from_fn(|i| min[i].min(p[i])), std::array::from_fn(|i| max[i].max(p[i])))
+    })
+}
+
+/// Six decimals are enough for a node's place and keep the JSON readable.
+fn short<const N: usize>(values: [f64; N]) -> [f64; N] {
+    // Adding zero turns -0 into 0.
+    values.map(|v| (v * 1e6).round() / 1e6 + 0.0)
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Document {
+    asset: Asset,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    extensions_used: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    extensions: Option<DocumentLights>,
+    scene: usize,
+    scenes: Vec<SceneJson>,
+    nodes: Vec<NodeJson>,
+    meshes: Vec<MeshJson>,
+    materials: Vec<MaterialJson>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    textures: Vec<TextureJson>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    images: Vec<ImageJson>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    samplers: Vec<Sampling>,
+    accessors: Vec<AccessorJson>,
+    buffer_views: Vec<ViewJson>,
+    buffers: Vec<BufferJson>,
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self {
+            asset: Asset { version: "2.0", generator: "lenspeel examples/make_scenes" },
+            extensions_used: Vec::new(),
+            extensions: None,
+            scene: 0,
+            scenes: vec![SceneJson { nodes: Vec::new() }],
+            nodes: Vec::new(),
+            meshes: Vec::new(),
+            materials: Vec::new(),
+            textures: Vec::new(),
+            images: Vec::new(),
+            samplers: Vec::new(),
+            accessors: Vec::new(),
+            buffer_views: Vec::new(),
+            buffers: Vec::new(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Asset {
+    version: &'static str,
+    generator: &'static str,
+}
+
+#[derive(Serialize)]
+struct SceneJson {
+    nodes: Vec<usize>,
+}
+
+#[derive(Serialize)]
+struct NodeJson {
+    name: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    children: Vec<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    translation: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rotation: Option<[f64; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scale: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    extensions: Option<NodeLights>,
+}
+
+#[derive(Serialize)]
+struct NodeLights {
+    #[serde(rename = "KHR_lights_punctual")]
+    lights: LightRef,
+}
+
+#[derive(Serialize)]
+struct LightRef {
+    light: usize,
+}
+
+#[derive(Serialize, Default)]
+struct DocumentLights {
+    #[serde(rename = "KHR_lights_punctual")]
+    lights: LightList,
+}
+
+#[derive(Serialize, Default)]
+struct LightList {
+    lights: Vec<Light>,
+}
+
+#[derive(Serialize)]
+struct MeshJson {
+    name: String,
+    primitives: Vec<PrimitiveJson>,
+}
+
+#[derive(Serialize)]
+struct PrimitiveJson {
+    attributes: Attributes,
+    indices: usize,
+    material: usize,
+}
+
+#[derive(Serialize)]
+struct Attributes {
+    #[serde(rename = "POSITION")]
+    position: usize,
+    #[serde(rename = "NORMAL", skip_serializing_if = "Option::is_none")]
+    normal: Option<usize>,
+    #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
+    texcoord: Option<usize>,
+    #[serde(rename = "COLOR_0", skip_serializing_if = "Option::is_none")]
+    color: Option<usize>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct MaterialJson {
+    name: &'static str,
+    pbr_metallic_roughness: PbrJson,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    emissive_factor: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    alpha_mode: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    alpha_cutoff: Option<f32>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct PbrJson {
+    base_color_factor: [f32; 4],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_color_texture: Option<TextureUse>,
+    metallic_factor: f32,
+    roughness_factor: f32,
+}
+
+#[derive(Serialize)]
+struct TextureUse {
+    index: usize,
+}
+
+#[derive(Serialize)]
+struct TextureJson {
+    source: usize,
+    sampler: usize,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct ImageJson {
+    name: &'static str,
+    buffer_view: usize,
+    mime_type: &'static str,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct AccessorJson {
+    buffer_view: usize,
+    component_type: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normalized: Option<bool>,
+    count: usize,
+    #[serde(rename = "type")]
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    min: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max: Option<[f32; 3]>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct ViewJson {
+    buffer: usize,
+    byte_offset: usize,
+    byte_length: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    target: Option<u32>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct BufferJson {
+    byte_length: usize,
+}
