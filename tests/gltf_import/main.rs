@@ -1,0 +1,8 @@
+//! glTF import: small files written here, real and invalid models beside the project, and damaged bytes.
+
+mod builder;
+mod damage;
+mod errors;
+mod shared;
+mod small;
+mod texts;

@@ -1,0 +1,64 @@
+//! The texts of `info` and `init`, as snapshots.
+
+use lenspeel::cli::{info_text, init_text};
+use lenspeel::scene::Model;
+use serde_json::json;
+
+use super::builder::*;
+
+/// Two named parts, a hundred bolts, a camera, a light, a texture.
+fn machine() -> Model {
+    let mut doc = Doc::new();
+    let position = doc.square();
+    let image = doc.view(&png(image::DynamicImage::new_rgb8(4, 2)));
+    doc.push("images", json!({"bufferView": image, "name": "rust"}));
+    doc.push("textures", json!({"source": 0}));
+    let pbr = json!({"baseColorTexture": {"index": 0}, "roughnessFactor": 0.4});
+    doc.push("materials", json!({"name": "steel", "pbrMetallicRoughness": pbr, "alphaMode": "BLEND"}));
+    doc.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "name": "lamp", "spot": {}}]}});
+    doc.json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_sheen"]);
+    doc.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.785398, "znear": 0.5}}));
+    let housing = doc.show(json!({"attributes": {"POSITION": position}, "mode": 6, "material": 0}));
+    doc.json["nodes"][housing]["name"] = json!("Housing");
+    doc.json["nodes"][housing]["scale"] = json!([4, 3, 2]);
+    let bolts: Vec<usize> = (0..100)
+        .map(|n| doc.push("nodes", json!({"name": format!("Bolt.{n:03}"), "mesh": 0, "translation": [n, 0, 0.5]})))
+        .collect();
+    doc.node(json!({"name": "Bolts", "children": bolts, "scale": [0.03, 0.03, 0.03]}));
+    doc.node(json!({"name": "View", "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}));
+    let spare = doc.push("nodes", json!({"name": "Spare", "mesh": 0}));
+    doc.json["scenes"][0]["name"] = json!("Assembly");
+    doc.push("scenes", json!({"name": "Store", "nodes": [spare]}));
+    doc.model()
+}
+
+#[test]
+fn info_lists_a_model() {
+    insta::assert_snapshot!(info_text(&machine()));
+}
+
+#[test]
+fn info_of_nothing() {
+    insta::assert_snapshot!(info_text(&Doc::new().model()));
+}
+
+#[test]
+fn init_writes_a_spec_that_fits() {
+    let text = init_text(&machine(), "models/machine.glb");
+    let table: toml::Table = text.parse().expect("valid TOML");
+    assert_eq!(table["lens"].as_array().map(Vec::len), Some(2));
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn info_of_a_deep_chain_does_not_overflow() {
+    let mut doc = Doc::new();
+    for n in 1..=50_000 {
+        doc.push("nodes", json!({"children": [n]}));
+    }
+    doc.push("nodes", json!({}));
+    doc.json["scenes"][0]["nodes"] = json!([0]);
+    let model = doc.model();
+    assert!(model.nodes[50_000].drawn);
+    assert!(info_text(&model).lines().count() > 50_000);
+}
