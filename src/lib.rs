@@ -7,6 +7,7 @@ pub mod cpu;
 mod error;
 pub mod frame;
 pub mod lens;
+pub mod output;
 pub mod plan;
 pub mod scene;
 pub mod spec;

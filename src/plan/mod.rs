@@ -2,6 +2,7 @@
 //!
 //! Order, contents, items and filters are decided here; a backend never sees the spec.
 
+mod account;
 mod camera;
 mod decide;
 mod items;
@@ -9,20 +10,24 @@ mod lenses;
 mod light;
 mod op;
 mod order;
+mod regions;
 mod set;
 mod walk;
+mod warnings;
 
 use crate::InputError;
 use crate::scene::Scene;
 use crate::spec::{Backfaces, Spec};
 use crate::view::View;
 
+pub use account::{Account, Undecided};
 pub use decide::{Reason, commute};
 pub use items::{Content, Item};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
+pub use regions::Region;
 pub use set::{LensSet, MAX_LENSES};
 pub use walk::{Verdict, survivors, walk};
 
@@ -53,6 +58,8 @@ pub struct Plan {
     pub graph: PriorityGraph,
     /// What ranked each lens of the file.
     pub ranks: Vec<Rank>,
+    /// What is allowed but hardly meant, one line each.
+    pub warnings: Vec<String>,
 }
 
 /// Maps the bounds of the scene to 0..1: `(p - origin) * scale`.
@@ -87,6 +94,7 @@ impl Plan {
             items,
             graph,
             ranks,
+            warnings: warnings::collect(spec, scene),
         })
     }
 
