@@ -343,7 +343,7 @@ fn lights_and_cameras() {
 fn rest_pose_and_unknown_extensions_are_told() {
     let mut doc = Doc::new();
     let position = doc.square();
-    doc.show(json!({"attributes": {"POSITION": position, "CUSTOM": position}, "targets": [{"POSITION": position}]}));
+    doc.show(json!({"attributes": {"POSITION": position, "CUSTOM": position}, "mode": 6, "targets": [{"POSITION": position}]}));
     doc.push("skins", json!({"joints": [0]}));
     doc.json["extensionsUsed"] = json!(["KHR_materials_sheen"]);
     assert_eq!(
