@@ -17,7 +17,7 @@ fn machine() -> Model {
     doc.push("materials", json!({"name": "steel", "pbrMetallicRoughness": pbr, "alphaMode": "BLEND"}));
     doc.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "name": "lamp", "spot": {}}]}});
     doc.json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_sheen"]);
-    doc.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.785398, "znear": 0.5}}));
+    doc.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.75, "znear": 0.5}}));
     let housing = doc.show(json!({"attributes": {"POSITION": position}, "mode": 6, "material": 0}));
     doc.json["nodes"][housing]["name"] = json!("Housing");
     doc.json["nodes"][housing]["scale"] = json!([4, 3, 2]);
