@@ -11,7 +11,6 @@ mod light;
 mod op;
 mod order;
 mod regions;
-mod set;
 mod walk;
 mod warnings;
 
@@ -20,6 +19,7 @@ use crate::scene::Scene;
 use crate::spec::{Backfaces, Spec};
 use crate::view::View;
 
+pub use crate::lens::{LensSet, MAX_LENSES};
 pub use account::{Account, Undecided};
 pub use decide::{Reason, commute};
 pub use items::{Content, Item};
@@ -28,7 +28,6 @@ pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
 pub use regions::Region;
-pub use set::{LensSet, MAX_LENSES};
 pub use walk::{Verdict, survivors, walk};
 
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.
@@ -72,6 +71,10 @@ pub struct TextureSpace {
 impl Plan {
     /// Decides a spec over its opened scene. All that can be wrong with the two together is found here.
     pub fn new(spec: &Spec, scene: &Scene) -> Result<Self, InputError> {
+        if let Some(rule) = spec.overlaps.first() {
+            return Err(InputError::at(&spec.source, rule.when.span.clone(), "overlap rules are not built yet")
+                .help("give the lenses an order with `over`, `hides` or `overlap = \"override\"` instead"));
+        }
         let mut view = camera::place(spec, scene)?;
         let graph = PriorityGraph::new(spec)?;
         let volumes = lenses::volumes(spec, scene, &view)?;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::{Item, LensSet, Plan, survivors};
-use crate::cpu::RayLayers;
+use crate::lens::RayLayers;
 use crate::scene::Aabb;
 use crate::view::Ray;
 
@@ -43,7 +43,7 @@ impl Plan {
         let mut layers = RayLayers::default();
         for (ray, from, to) in self.probes() {
             let volumes = self.by_pixel.iter().map(|rank| (rank, &self.lenses[rank].volume));
-            layers.find_among(volumes, &ray, from, to);
+            layers.find(volumes, &ray, from, to);
             for (i, start) in layers.starts.iter().enumerate() {
                 let end = layers.starts.get(i + 1).map_or(to, |next| next.depth);
                 self.note(start.set, &ray, (start.depth, end), &classes, &mut found);
