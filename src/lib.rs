@@ -9,6 +9,7 @@ pub mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod lens;
+pub mod output;
 pub mod plan;
 pub mod scene;
 pub mod spec;

@@ -1,1 +1,8 @@
-fn main() {}
+//! The program: see `lenspeel help`.
+#![forbid(unsafe_code)]
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    lenspeel::cli::run()
+}

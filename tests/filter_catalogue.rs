@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lenspeel::cli::filters::filters_text;
+use lenspeel::cli::filters_text;
 use lenspeel::spec::catalogue::{FILTERS, FilterRow, Param, ParamDefault, ParamKind};
 use lenspeel::spec::{Filter, Spec};
 

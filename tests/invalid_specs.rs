@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lenspeel::cli::report::report;
+use lenspeel::cli::report;
 use lenspeel::spec::Spec;
 
 /// Columns of the reports.

@@ -2,5 +2,5 @@
 
 #[test]
 fn the_schema_is_as_recorded() {
-    insta::assert_json_snapshot!(lenspeel::cli::schema::schema());
+    insta::assert_json_snapshot!(lenspeel::cli::schema());
 }

@@ -76,10 +76,13 @@ impl Frame {
         // Nothing to show: as if there were a cube of side 1 at the origin.
         let unit = Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) };
         let bounds = if bounds.is_empty() { unit } else { *bounds };
-        let radius = (bounds.size().length() * 0.5).max(f64::from(f32::MIN_POSITIVE));
+        let center = bounds.center();
+        let half_diagonal = bounds.size().length() * 0.5;
+        // A model that is a point still gets a camera and lenses that f64 can tell from it.
+        let is_point = half_diagonal <= 1e-9 * center.length();
+        let radius = if is_point { (1e-3 * center.length()).max(0.5) } else { half_diagonal };
         // Flat or thin models still get lenses with a body.
         let half = (bounds.size() * 0.5).max(DVec3::splat(radius * 0.1));
-        let center = bounds.center();
         let distance = 1.05 * radius / (FOV_Y.to_radians() * 0.5).sin();
         // The sphere to the left of the middle, the box to the right; they share the middle.
         Self {

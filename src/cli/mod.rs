@@ -1,13 +1,88 @@
-//! Texts of the program's subcommands, as plain functions of the data they show.
+//! The program's subcommands; what they print is made by plain functions of the data they show.
 
+mod args;
+mod check;
+mod explain;
 mod filters;
 mod info;
 mod init;
+mod render;
 mod report;
 mod schema;
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::InputError;
+use crate::scene::Model;
+use args::{Cli, Command};
 
 pub use filters::filters_text;
 pub use info::info_text;
 pub use init::init_text;
 pub use report::report;
 pub use schema::schema;
+
+/// The input is wrong; clap itself exits with 2 when the usage is.
+const WRONG_INPUT: u8 = 1;
+
+/// Runs the program on the arguments of the process.
+pub fn run() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Render(args) => render::run(&args),
+        Command::Check { spec, strict } => check::run(&spec, strict),
+        Command::Explain(args) => explain::run(&args),
+        Command::Info { model } => Model::load(&model, None).map(|m| print(&info_text(&m))),
+        Command::Init { model, output } => init_command(&model, output.as_deref()),
+        Command::Filters => {
+            print(&filters_text());
+            Ok(())
+        }
+        Command::Schema => {
+            print(&(serde_json::to_string_pretty(&schema()).unwrap_or_default() + "\n"));
+            Ok(())
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let terminal = std::io::stderr().is_terminal();
+            eprint!("{}", report(&error, 100, terminal && std::env::var_os("NO_COLOR").is_none()));
+            ExitCode::from(WRONG_INPUT)
+        }
+    }
+}
+
+/// To standard output; a reader that went away (`| head`) is no error.
+fn print(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+fn init_command(path: &Path, output: Option<&Path>) -> Result<(), InputError> {
+    let model = Model::load(path, None)?;
+    let Some(output) = output else {
+        print(&init_text(&model, &path.display().to_string()));
+        return Ok(());
+    };
+    if output.exists() {
+        let message = format!("{} is there already, and a starter spec would replace it", output.display());
+        return Err(InputError::new(message).help("choose another name, or remove it first"));
+    }
+    let text = init_text(&model, &relative(path, output).display().to_string());
+    crate::output::write_whole(output, text.as_bytes())
+}
+
+/// A path to `file` that holds in a spec at `spec`.
+fn relative(file: &Path, spec: &Path) -> std::path::PathBuf {
+    let folder = spec.parent().unwrap_or(Path::new(""));
+    if folder.as_os_str().is_empty() {
+        return file.to_path_buf();
+    }
+    if let Ok(inside) = file.strip_prefix(folder) {
+        return inside.to_path_buf();
+    }
+    std::fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf())
+}

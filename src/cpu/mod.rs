@@ -4,12 +4,10 @@ mod convert;
 mod geometry;
 mod glass;
 mod intersect;
-mod layers;
 mod pixel;
 mod render;
 mod shade;
 mod texture;
 
-pub use layers::{LayerStart, RayLayers};
 pub use pixel::{Fragment, PixelReport, Visible};
 pub use render::Renderer;

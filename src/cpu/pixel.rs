@@ -7,9 +7,9 @@ use super::convert::d3;
 use super::geometry::Geometry;
 use super::glass::{self, GlassHit};
 use super::intersect::ShearedRay;
-use super::layers::RayLayers;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
+use crate::lens::RayLayers;
 use crate::plan::{LensSet, Plan};
 use crate::scene::Scene;
 use crate::view::Ray;
@@ -147,7 +147,8 @@ impl<'a> Tracer<'a> {
     fn trace(&self, ray: &Ray, ranks: &[usize], scratch: &mut Scratch) -> Opaque {
         scratch.fragments.clear();
         scratch.glass.clear();
-        scratch.layers.find(self.plan, ranks, ray);
+        let volumes = ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume));
+        scratch.layers.find(volumes, ray, self.plan.view.near, self.plan.view.far);
         let around = scratch.layers.starts.iter().fold(LensSet::EMPTY, |all, start| all | start.set);
         let mut opaque: Opaque = None;
         for (content, geometry) in self.geometry.iter().enumerate() {

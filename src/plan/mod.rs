@@ -2,6 +2,7 @@
 //!
 //! Order, contents, items and filters are decided here; a backend never sees the spec.
 
+mod account;
 mod camera;
 mod decide;
 mod items;
@@ -9,21 +10,24 @@ mod lenses;
 mod light;
 mod op;
 mod order;
-mod set;
+mod regions;
 mod walk;
+mod warnings;
 
 use crate::InputError;
 use crate::scene::Scene;
 use crate::spec::{Backfaces, Spec};
 use crate::view::View;
 
+pub use crate::lens::{LensSet, MAX_LENSES};
+pub use account::{Account, Undecided};
 pub use decide::{Reason, commute};
 pub use items::{Content, Item};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
-pub use set::{LensSet, MAX_LENSES};
+pub use regions::Region;
 pub use walk::{Verdict, survivors, walk};
 
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.
@@ -53,6 +57,8 @@ pub struct Plan {
     pub graph: PriorityGraph,
     /// What ranked each lens of the file.
     pub ranks: Vec<Rank>,
+    /// What is allowed but hardly meant, one line each.
+    pub warnings: Vec<String>,
 }
 
 /// Maps the bounds of the scene to 0..1: `(p - origin) * scale`.
@@ -65,6 +71,10 @@ pub struct TextureSpace {
 impl Plan {
     /// Decides a spec over its opened scene. All that can be wrong with the two together is found here.
     pub fn new(spec: &Spec, scene: &Scene) -> Result<Self, InputError> {
+        if let Some(rule) = spec.overlaps.first() {
+            return Err(InputError::at(&spec.source, rule.when.span.clone(), "overlap rules are not built yet")
+                .help("give the lenses an order with `over`, `hides` or `overlap = \"override\"` instead"));
+        }
         let mut view = camera::place(spec, scene)?;
         let graph = PriorityGraph::new(spec)?;
         let volumes = lenses::volumes(spec, scene, &view)?;
@@ -87,6 +97,7 @@ impl Plan {
             items,
             graph,
             ranks,
+            warnings: warnings::collect(spec, scene),
         })
     }
 

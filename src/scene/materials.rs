@@ -89,8 +89,7 @@ impl TextureSlot {
             texture: textures.add(&model.images[texture.image], srgb, texture.sampler),
             uv_set: reference.uv_set as u32,
             offset: reference.offset,
-            // KHR_texture_transform turns counter-clockwise with v pointing down.
-            matrix: [cos * sx, -sin * sx, sin * sy, cos * sy],
+            matrix: [cos * sx, sin * sx, -sin * sy, cos * sy],
         }
     }
 }

@@ -13,6 +13,7 @@ pub struct Model {
     /// The file's materials, then one more: the default material of glTF.
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
+    /// Those that no material uses are not decoded: one white pixel each.
     pub images: Vec<Image>,
     pub lights: Vec<Light>,
     pub cameras: Vec<Camera>,

@@ -7,7 +7,7 @@ pub const LARGEST: f64 = 1e18;
 /// A size below this is refused: its square must not vanish in 32-bit floats.
 pub const SMALLEST_SIZE: f64 = 1e-18;
 
-/// An interval of numbers; a missing end is open to [`LARGEST`].
+/// An interval of numbers; a missing end is open: any number that is not too large to compute with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberRange {
     pub min: Option<f64>,

@@ -113,6 +113,11 @@ pub struct ImageSpec {
     pub background: Option<Color>,
 }
 
+impl ImageSpec {
+    /// The most pixels along one side.
+    pub const LARGEST_SIDE: u32 = 16384;
+}
+
 impl Default for ImageSpec {
     fn default() -> Self {
         Self { size: [1280, 720], samples: 4, background: Some(Color::rgb(0x1e, 0x22, 0x27)) }

@@ -103,7 +103,7 @@ fn numbers_in_the_json_replaced_by_extremes_never_panic() {
     let numbers = text.char_indices().filter(|(at, c)| c.is_ascii_digit() && text.as_bytes()[at - 1] == b':');
     let mut tried = 0;
     for (at, _) in numbers {
-        let end = at + text[at..].find(|c: char| !c.is_ascii_digit()).expect("JSON ends in a brace");
+        let end = at + text[at..].find([',', '}', ']']).expect("JSON ends in a brace");
         for value in ["0", "1", "7", "255", "4294967295", "18446744073709551615", "-1", "1e300"] {
             let changed = format!("{}{value}{}", &text[..at], &text[end..]);
             let mut json: serde_json::Value = serde_json::from_str(&changed).expect("still JSON");

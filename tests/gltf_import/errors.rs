@@ -82,7 +82,7 @@ fn structure_cases() -> Vec<(&'static str, Vec<u8>)> {
             broken(|json| {
                 json["nodes"][0]["children"] = json!([2]);
                 json["nodes"][1]["children"] = json!([2]);
-                json["nodes"][2] = json!({"name": "Child"});
+                json["nodes"].as_array_mut().expect("a list").push(json!({"name": "Child"}));
             }),
         ),
         ("node-too-large", broken(|json| json["nodes"][0]["scale"] = json!([1e39, 1, 1]))),
@@ -108,7 +108,10 @@ fn accessor_cases() -> Vec<(&'static str, Vec<u8>)> {
         (
             "attribute-too-short",
             broken(|json| {
-                json["accessors"][2] = json!({"bufferView": 0, "componentType": F32, "type": "VEC3", "count": 2});
+                json["accessors"]
+                    .as_array_mut()
+                    .expect("a list")
+                    .push(json!({"bufferView": 0, "componentType": F32, "type": "VEC3", "count": 2}));
                 json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(2);
             }),
         ),
@@ -117,7 +120,7 @@ fn accessor_cases() -> Vec<(&'static str, Vec<u8>)> {
         ("one-vertex-too-many", accessor(0, "count", json!(5))),
         ("count-beyond-all-bounds", accessor(0, "count", json!(u64::MAX))),
         (
-            "four-million-zeros",
+            "a-hundred-million-zeros",
             broken(|json| {
                 json["accessors"][0] = json!({"componentType": F32, "type": "VEC3", "count": 100_000_000});
             }),

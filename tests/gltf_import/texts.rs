@@ -1,7 +1,10 @@
 //! The texts of `info` and `init`, as snapshots.
 
+use std::path::Path;
+
 use lenspeel::cli::{info_text, init_text};
 use lenspeel::scene::Model;
+use lenspeel::spec::{Pattern, Spec};
 use serde_json::json;
 
 use super::builder::*;
@@ -17,7 +20,7 @@ fn machine() -> Model {
     doc.push("materials", json!({"name": "steel", "pbrMetallicRoughness": pbr, "alphaMode": "BLEND"}));
     doc.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "name": "lamp", "spot": {}}]}});
     doc.json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_materials_sheen"]);
-    doc.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.785398, "znear": 0.5}}));
+    doc.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.75, "znear": 0.5}}));
     let housing = doc.show(json!({"attributes": {"POSITION": position}, "mode": 6, "material": 0}));
     doc.json["nodes"][housing]["name"] = json!("Housing");
     doc.json["nodes"][housing]["scale"] = json!([4, 3, 2]);
@@ -45,9 +48,28 @@ fn info_of_nothing() {
 #[test]
 fn init_writes_a_spec_that_fits() {
     let text = init_text(&machine(), "models/machine.glb");
-    let table: toml::Table = text.parse().expect("valid TOML");
-    assert_eq!(table["lens"].as_array().map(Vec::len), Some(2));
+    let spec = parse(&text);
+    assert_eq!(spec.lenses.len(), 2);
+    assert_eq!(spec.lenses[1].over[0].value, Pattern::new("wires"));
     insta::assert_snapshot!(text);
+}
+
+fn parse(text: &str) -> Spec {
+    Spec::parse(text, "starter.toml", Path::new("")).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Whatever the size and place of a model, and whatever its file is called.
+#[test]
+fn init_always_parses() {
+    for (scale, offset) in [(1.0, 0.0), (1e-6, 0.0), (1e7, -3e8), (1e-3, 5e5), (0.0, 0.0), (1e25, 0.0), (1e-25, 0.0)] {
+        let mut doc = Doc::new();
+        let position = doc.square();
+        doc.show(json!({"attributes": {"POSITION": position}, "mode": 6}));
+        doc.json["nodes"][0]["scale"] = json!([scale, scale, scale]);
+        doc.json["nodes"][0]["translation"] = json!([offset, 0, 0]);
+        assert_eq!(parse(&init_text(&doc.model(), "a \"b\"\\c.glb")).lenses.len(), 2, "{scale} {offset}");
+    }
+    assert_eq!(parse(&init_text(&Model::default(), "empty.glb")).lenses.len(), 2);
 }
 
 #[test]

@@ -33,14 +33,20 @@ fn check_total(file: &File<'_>) -> Result<(), InputError> {
     let root = file.root();
     let primitives = root.meshes.iter().flat_map(|m| &m.primitives);
     let accessors = primitives.flat_map(|p| p.attributes.values().chain(&p.indices));
-    let total = accessors
-        .filter_map(|index| root.accessors.get(index.value()))
-        .fold(0u64, |sum, accessor| sum.saturating_add(accessor.count.0));
-    if total <= MAX_ELEMENTS {
-        return Ok(());
+    let mut total = 0u64;
+    for index in accessors {
+        let Some(accessor) = root.accessors.get(index.value()) else { continue };
+        total = total.saturating_add(accessor.count.0);
+        if total > MAX_ELEMENTS {
+            let label = object("accessor", index.value(), accessor.name.as_deref());
+            let what = format!(
+                "with its {} elements the meshes have {total} vertex attributes and indices, at most {MAX_ELEMENTS} can be",
+                accessor.count.0
+            );
+            return Err(file.error(label, what).help("the file is damaged, or too large: split or simplify it"));
+        }
     }
-    let what = format!("{total} vertex attributes and indices in all, at most {MAX_ELEMENTS} can be");
-    Err(file.error("meshes", what).help("split or simplify the model"))
+    Ok(())
 }
 
 fn mesh(file: &File<'_>, index: usize, json: &json::Mesh) -> Result<(Mesh, Vec<String>), InputError> {

@@ -16,6 +16,9 @@ const BIN: &[u8] = b"BIN\0";
 /// Tells a GLB file by its magic; all else is taken for JSON.
 pub fn split<'a>(bytes: &'a [u8], name: &str) -> Result<Container<'a>, InputError> {
     if bytes.starts_with(b"glTF") {
+        if let Some(version) = word(bytes, 4).filter(|v| *v != 2) {
+            return Err(InputError::new(format!("{name}: GLB version {version}")).help("expected 2"));
+        }
         return chunks(bytes).map_err(|what| {
             InputError::new(format!("{name}: not a whole GLB file: {what}")).help("it may be cut short; get it again")
         });
@@ -25,12 +28,9 @@ pub fn split<'a>(bytes: &'a [u8], name: &str) -> Result<Container<'a>, InputErro
 }
 
 fn chunks(bytes: &[u8]) -> Result<Container<'_>, String> {
-    let (Some(version), Some(length)) = (word(bytes, 4), word(bytes, 8)) else {
+    let Some(length) = word(bytes, 8) else {
         return Err(format!("its header takes {HEADER} bytes, {} are there", bytes.len()));
     };
-    if version != 2 {
-        return Err(format!("container version {version}, expected 2"));
-    }
     if length > bytes.len() || length < HEADER {
         return Err(format!("its header says {length} bytes, {} are there", bytes.len()));
     }

@@ -8,9 +8,6 @@ use super::table::Table;
 use crate::InputError;
 use crate::spec::{Color, ImageSpec};
 
-/// The most pixels along one side; their product is at most 2^28.
-const LARGEST_SIDE: i64 = 16384;
-
 pub fn read(item: &Item) -> Result<ImageSpec, InputError> {
     let table = Table::open(item, "[image]", keys::IMAGE)?;
     let default = ImageSpec::default();
@@ -31,7 +28,7 @@ fn size(item: &Item) -> Result<[u32; 2], InputError> {
 }
 
 fn side(item: &Item) -> Result<u32, InputError> {
-    item.integer(1, LARGEST_SIDE).map(|side| side as u32)
+    item.integer(1, i64::from(ImageSpec::LARGEST_SIDE)).map(|side| side as u32)
 }
 
 fn samples(item: &Item) -> Result<u32, InputError> {

@@ -1,7 +1,6 @@
 //! The layers of one view ray: the lenses' intervals cut it into stretches with a constant set of lenses.
 
-use crate::lens::Volume;
-use crate::plan::{LensSet, Plan};
+use super::{LensSet, Volume};
 use crate::view::Ray;
 
 /// Boundaries closer than this share of the depth are one (SEMANTICS 2.1).
@@ -22,20 +21,8 @@ pub struct RayLayers {
 }
 
 impl RayLayers {
-    /// Finds the layers of a ray among the lenses of the given ranks. Keeps its allocations from ray to ray.
-    pub fn find(&mut self, plan: &Plan, ranks: &[usize], ray: &Ray) {
-        let volumes = ranks.iter().map(|rank| (*rank, &plan.lenses[*rank].volume));
-        self.find_among(volumes, ray, plan.view.near, plan.view.far);
-    }
-
-    /// The same for any volumes under any numbers.
-    pub fn find_among<'a>(
-        &mut self,
-        volumes: impl Iterator<Item = (usize, &'a Volume)>,
-        ray: &Ray,
-        near: f64,
-        far: f64,
-    ) {
+    /// Finds the layers of a ray among volumes, each with its lens's rank. Keeps its allocations from ray to ray.
+    pub fn find<'a>(&mut self, volumes: impl Iterator<Item = (usize, &'a Volume)>, ray: &Ray, near: f64, far: f64) {
         self.starts.clear();
         self.boundaries.clear();
         let mut set = LensSet::EMPTY;

@@ -1,0 +1,151 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::output::Aov;
+use crate::spec::ImageSpec;
+
+#[derive(Debug, Parser)]
+#[command(name = "lenspeel", version, about = "Composed 3D magic lenses", arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a lens-spec file to a picture
+    Render(RenderArgs),
+    /// Check a lens-spec file and everything it names
+    Check {
+        /// The lens-spec file
+        spec: PathBuf,
+        /// Fail on warnings, too: lenses whose order only the file decides, patterns that match nothing
+        #[arg(long)]
+        strict: bool,
+    },
+    /// Explain the order of the lenses and what acts where
+    Explain(ExplainArgs),
+    /// Describe a glTF model
+    Info {
+        /// A .glb or .gltf file
+        model: PathBuf,
+    },
+    /// Write a starter spec for a glTF model
+    Init {
+        /// A .glb or .gltf file
+        model: PathBuf,
+        /// Where to write it; left out: to the terminal
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
+    /// List the filters with their parameters
+    Filters,
+    /// Print a JSON Schema of lens-spec files, for editors
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The lens-spec file
+    pub spec: PathBuf,
+    /// The picture to write (PNG)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Width and height in pixels, as in 1920x1080; left out: the spec's
+    #[arg(long, value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Samples a pixel: 1, 4, 9 or 16; left out: the spec's
+    #[arg(long, value_parser = parse_samples)]
+    pub samples: Option<u32>,
+    /// What renders: the GPU, the CPU, or the GPU where there is a real one
+    #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
+    pub backend: BackendChoice,
+    /// How the GPU composes
+    #[arg(long, value_enum, default_value_t = EngineChoice::Fused)]
+    pub engine: EngineChoice,
+    /// Also write a map: region, depth, normal, node or layers (repeatable)
+    #[arg(long, value_name = "NAME=FILE", value_parser = parse_aov)]
+    pub aov: Vec<(Aov, PathBuf)>,
+    /// Print how long each stage took
+    #[arg(long)]
+    pub time: bool,
+    /// Write the times of all stages and the sizes of things to a JSON file
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The lens-spec file
+    pub spec: PathBuf,
+    #[arg(long, value_enum, default_value_t = ExplainFormat::Text)]
+    pub format: ExplainFormat,
+    /// Explain one pixel, from the top left corner: column,row
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    pub pixel: Option<[u32; 2]>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum BackendChoice {
+    Auto,
+    Gpu,
+    Cpu,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EngineChoice {
+    /// The scene drawn once for each content; each fragment finds its layer
+    Fused,
+    /// The scene drawn once for each layer, back to front
+    Peel,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExplainFormat {
+    Text,
+    Json,
+    /// The priority graph for Graphviz
+    Dot,
+    /// The priority graph for Mermaid
+    Mermaid,
+}
+
+fn pair(text: &str, separator: char) -> Option<[u32; 2]> {
+    let (a, b) = text.split_once(separator)?;
+    Some([a.trim().parse().ok()?, b.trim().parse().ok()?])
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let size = pair(text, 'x').ok_or("expected WIDTHxHEIGHT, as in 1280x720")?;
+    let largest = ImageSpec::LARGEST_SIDE;
+    if size.iter().all(|side| (1..=largest).contains(side)) {
+        Ok(size)
+    } else {
+        Err(format!("each side must have 1 to {largest} pixels"))
+    }
+}
+
+fn parse_samples(text: &str) -> Result<u32, String> {
+    let samples = text.parse().map_err(|_| "expected 1, 4, 9 or 16")?;
+    if [1, 4, 9, 16].contains(&samples) { Ok(samples) } else { Err("expected 1, 4, 9 or 16".into()) }
+}
+
+fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
+    pair(text, ',').ok_or_else(|| "expected COLUMN,ROW, as in 640,360".into())
+}
+
+fn parse_aov(text: &str) -> Result<(Aov, PathBuf), String> {
+    let names = || Aov::ALL.map(|(name, _)| name).join(", ");
+    let (name, file) = text.split_once('=').ok_or_else(|| format!("expected NAME=FILE with one of {}", names()))?;
+    let (_, aov) = Aov::ALL
+        .into_iter()
+        .find(|(known, _)| *known == name)
+        .ok_or_else(|| format!("there is no map `{name}`; there are {}", names()))?;
+    if file.is_empty() {
+        return Err("the file name is missing".into());
+    }
+    Ok((aov, PathBuf::from(file)))
+}

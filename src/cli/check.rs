@@ -1,0 +1,33 @@
+//! `lenspeel check`.
+
+use std::path::Path;
+
+use crate::InputError;
+use crate::plan::{Account, Plan};
+use crate::scene::Scene;
+use crate::spec::Spec;
+
+/// Opens and decides everything, prints warnings, and fails on them where `strict`.
+pub fn run(path: &Path, strict: bool) -> Result<(), InputError> {
+    let spec = Spec::load(path)?;
+    let scene = Scene::open(&spec)?;
+    let plan = Plan::new(&spec, &scene)?;
+    let account = Account::new(&spec, &plan);
+    let findings = plan.warnings.len() + account.undecided.len();
+    let mut text: String = plan.warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+    text += &account.undecided_text();
+    super::print(&text);
+    if strict && findings > 0 {
+        let message = format!("{}: {findings} warning(s), and --strict allows none", spec.source.name);
+        return Err(InputError::new(message).help("see the lines above"));
+    }
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    super::print(&format!(
+        "{}: good: {}, {}, {}\n",
+        spec.source.name,
+        count(plan.lenses.len(), "lens").replace("lenss", "lenses"),
+        count(account.regions.len(), "region"),
+        count(findings, "warning"),
+    ));
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! AOV files: 16-bit gray PNG for numbers, EXR for floats.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes, WritableImage,
+};
+
+use super::png::write_gray16;
+use super::{RegionMap, write_whole};
+use crate::InputError;
+use crate::frame::Aovs;
+use crate::plan::Plan;
+
+/// Which map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aov {
+    Region,
+    Depth,
+    Normal,
+    Node,
+    Layers,
+}
+
+impl Aov {
+    pub const ALL: [(&'static str, Aov); 5] = [
+        ("region", Aov::Region),
+        ("depth", Aov::Depth),
+        ("normal", Aov::Normal),
+        ("node", Aov::Node),
+        ("layers", Aov::Layers),
+    ];
+}
+
+/// Writes one map; for regions its table, too, with the extension `.json`.
+pub fn write_aov(path: &Path, aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<(), InputError> {
+    let size = plan.view.size;
+    match aov {
+        Aov::Node => write_gray16(path, &aovs.nodes, size),
+        Aov::Layers => write_gray16(path, &aovs.layers, size),
+        Aov::Region => {
+            let map = RegionMap::new(plan, aovs);
+            write_gray16(path, &map.ids, size)?;
+            let table = serde_json::to_string_pretty(&map.json()).unwrap_or_default();
+            write_whole(&path.with_extension("json"), (table + "\n").as_bytes())
+        }
+        Aov::Depth => write_exr(path, size, &[("Z", aovs.depth.clone())]),
+        Aov::Normal => {
+            let axis = |i: usize| aovs.normals.iter().map(|n| n[i]).collect();
+            write_exr(path, size, &[("R", axis(0)), ("G", axis(1)), ("B", axis(2))])
+        }
+    }
+}
+
+fn write_exr(path: &Path, size: [u32; 2], channels: &[(&str, Vec<f32>)]) -> Result<(), InputError> {
+    let channel = |(name, values): &(&str, Vec<f32>)| AnyChannel::new(*name, FlatSamples::F32(values.clone()));
+    let layer = Layer::new(
+        (size[0] as usize, size[1] as usize),
+        LayerAttributes::default(),
+        Encoding::FAST_LOSSLESS,
+        AnyChannels::sort(channels.iter().map(channel).collect()),
+    );
+    let mut bytes = Cursor::new(Vec::new());
+    ExrImage::from_layer(layer)
+        .write()
+        .to_buffered(&mut bytes)
+        .map_err(|e| InputError::new(format!("{} cannot be encoded: {e}", path.display())))?;
+    write_whole(path, bytes.get_ref())
+}

@@ -1,0 +1,35 @@
+//! Patterns that match nothing, and what the models left out.
+
+use crate::scene::{Model, Scene};
+use crate::spec::{At, Filter, Matches, Pattern, Spec};
+
+pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
+    let mut warnings: Vec<String> = scene.models.iter().flat_map(|m| m.warnings.iter().cloned()).collect();
+    let mut check = |place: String, patterns: &[At<Pattern>], known: &dyn Fn(&Pattern) -> bool| {
+        for pattern in patterns.iter().filter(|p| !known(&p.value)) {
+            let line = spec.source.line(pattern.span.start);
+            warnings.push(format!("{}:{line}: {place} matches nothing: `{}`", spec.source.name, pattern.value));
+        }
+    };
+    let node = |p: &Pattern| scene.models.iter().any(|m| has_node(m, p));
+    let material = |p: &Pattern| scene.models.iter().any(|m| m.materials.iter().any(|m| p.matches(&m.name)));
+    check("`hide`".into(), &spec.scene.hide, &|p| has_node(&scene.models[0], p));
+    for lens in &spec.lenses {
+        let name = &lens.name.value;
+        for (key, Matches { nodes, materials }) in [("only", &lens.only), ("except", &lens.except)] {
+            check(format!("`{key}` of lens `{name}`"), nodes, &node);
+            check(format!("`{key}` of lens `{name}`"), materials, &material);
+        }
+        for filter in &lens.filters {
+            if let Filter::Erase { nodes, materials } = &filter.value {
+                check(format!("`erase` of lens `{name}`"), nodes, &node);
+                check(format!("`erase` of lens `{name}`"), materials, &material);
+            }
+        }
+    }
+    warnings
+}
+
+fn has_node(model: &Model, pattern: &Pattern) -> bool {
+    model.nodes.iter().any(|n| pattern.matches(&n.name))
+}
