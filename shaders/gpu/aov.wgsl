@@ -51,6 +51,6 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     maps[at + 5u] = bitcast<u32>(normal.z);
     maps[at + 6u] = found;
     for (var w = 0u; w < WORDS; w += 1u) {
-        maps[at + 7u + w] = visible.set.words[w];
+        maps[at + 7u + w] = visible.around.words[w];
     }
 }

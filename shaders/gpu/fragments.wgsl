@@ -49,5 +49,5 @@ fn next_listed(pixel: vec2u, after: Pick) -> Pick {
 
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u) -> Fragment {
     let verdict = walk(pick.item, set_at(tile, pixel, pick.depth));
-    return Fragment(pick.item, pick.triangle, pick.depth, verdict.set, verdict.stack);
+    return Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack);
 }

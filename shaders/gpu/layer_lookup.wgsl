@@ -15,11 +15,11 @@ fn layer_start(at: u32, layer: u32) -> f32 {
 }
 
 fn layer_set(at: u32, layer: u32) -> Set {
-    var set = Set();
+    var around = Set();
     for (var w = 0u; w < WORDS; w += 1u) {
-        set.words[w] = layers[at + 2u + layer * LAYER_WORDS + w];
+        around.words[w] = layers[at + 2u + layer * LAYER_WORDS + w];
     }
-    return set;
+    return around;
 }
 
 // The lenses around a depth: `entry <= depth < exit`.

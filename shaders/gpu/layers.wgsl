@@ -27,11 +27,11 @@ fn put_boundary(at: u32, count: u32, depth: f32, rank: u32) {
     layers[here + 1u] = rank;
 }
 
-fn put_layer(at: u32, layer: u32, depth: f32, set: Set) {
+fn put_layer(at: u32, layer: u32, depth: f32, around: Set) {
     let here = at + 1u + layer * LAYER_WORDS;
     layers[here] = bitcast<u32>(depth);
     for (var w = 0u; w < WORDS; w += 1u) {
-        layers[here + 1u + w] = set.words[w];
+        layers[here + 1u + w] = around.words[w];
     }
 }
 
@@ -51,7 +51,7 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
     }
     let at = layers_at(tile, pixel);
     let point = sample_point(pixel);
-    var set = Set();
+    var around = Set();
     var count = 0u;
     for (var i = 0u; i < tile.lens_count; i += 1u) {
         let rank = tiles[tile.first_lens + i];
@@ -65,14 +65,14 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
             put_boundary(at, count, entry, rank);
             count += 1u;
         } else {
-            set.words[rank / 32u] |= 1u << (rank % 32u);
+            around.words[rank / 32u] |= 1u << (rank % 32u);
         }
         if exit < frame.far {
             put_boundary(at, count, exit, rank);
             count += 1u;
         }
     }
-    put_layer(at, 0u, frame.near, set);
+    put_layer(at, 0u, frame.near, around);
     // A layer is never written before the boundaries that stand in its place have been read.
     var written = 1u;
     var next = 1u;
@@ -85,10 +85,10 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
             }
             // Crosses its surface: in or out.
             let rank = layers[here + 1u];
-            set.words[rank / 32u] ^= 1u << (rank % 32u);
+            around.words[rank / 32u] ^= 1u << (rank % 32u);
             next += 1u;
         }
-        put_layer(at, written, depth, set);
+        put_layer(at, written, depth, around);
         written += 1u;
     }
     layers[at] = written;

@@ -7,7 +7,7 @@ struct Set {
 
 struct Verdict {
     // The lenses around the fragment that apply to it.
-    set: Set,
+    around: Set,
     // Those that act.
     stack: Set,
     displayed: bool,
@@ -27,7 +27,7 @@ fn translucent_word(word: u32) -> u32 {
 
 // Who acts on a fragment of an item inside the given lenses (SEMANTICS section 4).
 fn walk(item: u32, inside: Set) -> Verdict {
-    var set = Set();
+    var around = Set();
     var stack = Set();
     var hidden = Set();
     var displayed = true;
@@ -47,7 +47,7 @@ fn walk(item: u32, inside: Set) -> Verdict {
             if !shows && (scope & flag) == 0u {
                 continue;
             }
-            set.words[word] |= flag;
+            around.words[word] |= flag;
             if !acts {
                 continue;
             }
@@ -63,7 +63,7 @@ fn walk(item: u32, inside: Set) -> Verdict {
         }
     }
     displayed = displayed && (shown || (items[item].flags & ITEM_ALTERNATE) == 0u);
-    return Verdict(set, stack, displayed);
+    return Verdict(around, stack, displayed);
 }
 
 fn may_be_translucent(item: u32, stack: Set) -> bool {

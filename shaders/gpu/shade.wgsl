@@ -5,7 +5,7 @@ struct Fragment {
     item: u32,
     triangle: u32,
     depth: f32,
-    set: Set,
+    around: Set,
     stack: Set,
 }
 
