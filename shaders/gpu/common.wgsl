@@ -81,7 +81,8 @@ struct Item {
     colors: u32,
     uv0: u32,
     uv1: u32,
-    pad: u32,
+    // Bit i: its material has a texture in slot i.
+    slots: u32,
     masks: array<u32, 4u * WORDS>,
 }
 
@@ -139,6 +140,14 @@ struct TextureSlot {
     matrix: vec4f,
 }
 
+const SLOT_BASE_COLOR: u32 = 0u;
+const SLOT_METALLIC_ROUGHNESS: u32 = 1u;
+const SLOT_NORMAL: u32 = 2u;
+const SLOT_OCCLUSION: u32 = 3u;
+const SLOT_EMISSIVE: u32 = 4u;
+// Not a material's: the texture of a filter.
+const SLOT_FILTER: u32 = 5u;
+
 // Twin of `scene::MaterialRecord`.
 struct Material {
     base_color: vec4f,
@@ -152,11 +161,8 @@ struct Material {
     double_sided: u32,
     unlit: u32,
     pad: u32,
-    base_color_texture: TextureSlot,
-    metallic_roughness_texture: TextureSlot,
-    normal_texture: TextureSlot,
-    occlusion_texture: TextureSlot,
-    emissive_texture: TextureSlot,
+    // By SLOT_...
+    slots: array<TextureSlot, 5>,
 }
 
 // Twin of `records::TextureInfo`.

@@ -79,7 +79,8 @@ pub struct ItemRecord {
     pub colors: u32,
     pub uv0: u32,
     pub uv1: u32,
-    pub pad: u32,
+    /// Bit i: its material has a texture in its i-th slot.
+    pub slots: u32,
 }
 
 /// One lens; the set that it hides follows.
