@@ -8,7 +8,7 @@ use crate::plan::{Item, Plan};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
 
 /// Which faces of an item are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Culling {
     None,
     Back,
@@ -97,7 +97,8 @@ fn record(scene: &Scene, plan: &Plan, data: &SceneData, item: &Item) -> ItemReco
         material: item.material as u32,
         node: item.node as u32 + 1,
         first_triangle: item.first_triangle,
-        flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 } | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
+        flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 }
+            | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
         first_index: range.first_index,
         base_vertex: range.base_vertex,
         normals: range.normals,

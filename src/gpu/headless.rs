@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
+use super::pipelines::PipelineStore;
 use super::readback::{Readback, row_bytes};
 use super::renderer::{Job, Renderer};
 use super::targets::FRAGMENT_BYTES;
@@ -20,6 +21,7 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub struct Headless {
     device: wgpu::Device,
     queue: wgpu::Queue,
+    store: Arc<PipelineStore>,
     /// What the device reported outside of any call's result.
     reported: Arc<Mutex<Option<String>>>,
     /// Which adapter this is and why it was chosen.
@@ -64,12 +66,15 @@ impl Headless {
                 slot.get_or_insert(error.to_string());
             }
         }));
-        Ok(Self { device, queue, reported, reason: choice.reason.clone() })
+        let store = Arc::new(PipelineStore::new(&device, FORMAT));
+        Ok(Self { device, queue, store, reported, reason: choice.reason.clone() })
     }
 
     /// Uploads a scene for any number of renders.
     pub fn renderer(&self, scene: &Scene) -> Result<Renderer, Error> {
-        Renderer::new(&self.device, &self.queue, scene, FORMAT)
+        let renderer = Renderer::with_store(&self.device, &self.queue, scene, self.store.clone())?;
+        self.check()?;
+        Ok(renderer)
     }
 
     /// The picture of a plan, in several windows if one would outgrow the device.

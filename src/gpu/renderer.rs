@@ -1,15 +1,14 @@
 //! The long-lived renderer of one scene on one device, and the frames that it encodes.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
-use super::bindings::{self, Layouts};
+use super::bindings;
 use super::draws::{self, Draw};
 use super::frame::{self, FrameShape, Sample};
 use super::lens_data::LensData;
-use super::pipelines::Pipelines;
+use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::records::{FrameRecord, set_words};
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
 use super::tiles::{DISPATCH_WIDTH, Tiles};
@@ -23,11 +22,8 @@ use crate::scene::Scene;
 /// It borrows device, queue, encoder and target, and never submits, polls or owns a surface.
 #[derive(Debug)]
 pub struct Renderer {
-    layouts: Layouts,
-    target_format: wgpu::TextureFormat,
+    store: Arc<PipelineStore>,
     scene: SceneData,
-    /// By the number of words of a lens set.
-    pipelines: BTreeMap<u32, Arc<Pipelines>>,
     targets: Option<Arc<Targets>>,
     /// The most fragments that lists have needed so far.
     needed_fragments: u64,
@@ -52,16 +48,25 @@ pub struct Job {
     /// What lies at the pixel centres, when asked for.
     pub maps: Option<wgpu::Buffer>,
     pub words: u32,
-    engine: Engine,
     passes: u32,
     active_tiles: u32,
     record_stride: u32,
-    draws: Vec<Draw>,
+    draws: Vec<(Draw, wgpu::RenderPipeline)>,
     positions: wgpu::Buffer,
     indices: wgpu::Buffer,
-    pipelines: Arc<Pipelines>,
+    compute: ComputeSteps,
+    finish: wgpu::RenderPipeline,
     targets: Arc<Targets>,
     groups: Groups,
+}
+
+/// What is not drawn but computed.
+#[derive(Debug)]
+struct ComputeSteps {
+    layers: wgpu::ComputePipeline,
+    resolve: wgpu::ComputePipeline,
+    /// When maps are asked for.
+    aov: Option<wgpu::ComputePipeline>,
 }
 
 #[derive(Debug)]
@@ -83,16 +88,18 @@ impl Renderer {
         scene: &Scene,
         target_format: wgpu::TextureFormat,
     ) -> Result<Self, Error> {
-        let layouts = Layouts::new(device);
-        let scene = SceneData::new(device, queue, &layouts.scene, scene)?;
-        Ok(Self {
-            layouts,
-            target_format,
-            scene,
-            pipelines: BTreeMap::new(),
-            targets: None,
-            needed_fragments: 0,
-        })
+        Self::with_store(device, queue, scene, Arc::new(PipelineStore::new(device, target_format)))
+    }
+
+    /// The same with pipelines that other scenes use, too.
+    pub(super) fn with_store(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        store: Arc<PipelineStore>,
+    ) -> Result<Self, Error> {
+        let scene = SceneData::new(device, queue, &store.layouts.scene, scene)?;
+        Ok(Self { store, scene, targets: None, needed_fragments: 0 })
     }
 
     /// Encodes a whole picture of a plan into `target`, which is as large as the plan's view.
@@ -142,7 +149,7 @@ impl Renderer {
             window,
             tiles: &tiles,
             fragment_capacity: fragment_capacity.min(u64::from(u32::MAX)) as u32,
-            target_is_srgb: self.target_format.is_srgb(),
+            target_is_srgb: self.store.target.is_srgb(),
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
         let needed_fragments = work_buffer(device, "fragment counters", 4 * samples.len() as u64)?;
@@ -152,6 +159,7 @@ impl Renderer {
             .transpose()?;
         let plan_group = self.plan_group(device, scene, plan, &tiles, words, &frames)?;
         let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
+        let pipelines = self.store.get(words);
         Ok(Job {
             samples,
             window,
@@ -159,22 +167,40 @@ impl Renderer {
             fragment_capacity,
             maps,
             words,
-            engine: options.engine,
             passes,
             active_tiles: tiles.active,
             record_stride,
-            draws: draws::draws(scene, plan, &self.scene),
+            draws: self.draws(scene, plan, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
-            pipelines: self.pipelines(device, words),
+            compute: ComputeSteps {
+                layers: pipelines.layers(&self.store),
+                resolve: pipelines.resolve(&self.store),
+                aov: options.aovs.then(|| pipelines.aov(&self.store)),
+            },
+            finish: pipelines.finish(&self.store),
             targets,
             groups,
         })
     }
 
-    fn pipelines(&mut self, device: &wgpu::Device, words: u32) -> Arc<Pipelines> {
-        let build = || Arc::new(Pipelines::new(device, &self.layouts, words, self.target_format));
-        self.pipelines.entry(words).or_insert_with(build).clone()
+    /// The draws of a plan, each with the pipeline that draws it.
+    fn draws(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        engine: Engine,
+        pipelines: &Pipelines,
+    ) -> Vec<(Draw, wgpu::RenderPipeline)> {
+        let program = |draw: &Draw| match engine {
+            Engine::Fused if draw.plain => Program::Plain,
+            Engine::Fused => Program::Fused,
+            Engine::Peel => Program::Peel,
+        };
+        draws::draws(scene, plan, &self.scene)
+            .into_iter()
+            .map(|draw| (draw, pipelines.draw(&self.store, program(&draw), draw.culling)))
+            .collect()
     }
 
     fn targets(
@@ -226,7 +252,7 @@ impl Renderer {
         Ok(bindings::group(
             device,
             "plan",
-            &self.layouts.plan,
+            &self.store.layouts.plan,
             &[
                 wgpu::BindingResource::Buffer(record),
                 items?.as_entire_binding(),
@@ -253,21 +279,26 @@ impl Renderer {
         let accumulated = || targets.accumulated.as_entire_binding();
         let resolve = |output| {
             let ids = wgpu::BindingResource::TextureView(&targets.ids);
-            bindings::group(device, "resolve", &self.layouts.resolve, &[layers(), heads(), fragments(), ids, output])
+            bindings::group(
+                device,
+                "resolve",
+                &self.store.layouts.resolve,
+                &[layers(), heads(), fragments(), ids, output],
+            )
         };
         Groups {
             scene: self.scene.bind_group.clone(),
             plan,
-            layers: bindings::group(device, "layers", &self.layouts.layers, &[layers()]),
+            layers: bindings::group(device, "layers", &self.store.layouts.layers, &[layers()]),
             visibility: bindings::group(
                 device,
                 "visibility",
-                &self.layouts.visibility,
+                &self.store.layouts.visibility,
                 &[layers(), heads(), fragments(), needed.as_entire_binding()],
             ),
             resolve: resolve(accumulated()),
             maps: maps.map(|maps| resolve(maps.as_entire_binding())),
-            finish: bindings::group(device, "finish", &self.layouts.finish, &[accumulated()]),
+            finish: bindings::group(device, "finish", &self.store.layouts.finish, &[accumulated()]),
         }
     }
 }
@@ -282,8 +313,9 @@ impl Job {
         if self.active_tiles == 0 {
             return;
         }
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
-        pass.set_pipeline(&self.pipelines.layers);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
+        pass.set_pipeline(&self.compute.layers);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, &self.groups.layers, &[]);
@@ -300,7 +332,10 @@ impl Job {
                 view: &self.targets.ids,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.targets.depth,
@@ -317,31 +352,22 @@ impl Job {
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for layer in (0..self.passes).rev() {
             pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
-            for draw in &self.draws {
-                self.encode_draw(&mut pass, draw);
+            for (draw, pipeline) in &self.draws {
+                pass.set_pipeline(pipeline);
+                let range = draw.range;
+                let indices = range.first_index..range.first_index + range.index_count;
+                pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
             }
         }
-    }
-
-    fn encode_draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) {
-        let pipelines = match self.engine {
-            Engine::Fused if draw.plain => &self.pipelines.plain,
-            Engine::Fused => &self.pipelines.fused,
-            Engine::Peel => &self.pipelines.peel,
-        };
-        pass.set_pipeline(pipelines.get(draw.culling));
-        let range = draw.range;
-        let indices = range.first_index..range.first_index + range.index_count;
-        pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
     }
 
     /// Composites each pixel's fragments; writes the maps where this is the sample for them.
     pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
         if sample.colors {
-            self.encode_pixels(encoder, sample, &self.pipelines.resolve, &self.groups.resolve);
+            self.encode_pixels(encoder, sample, &self.compute.resolve, &self.groups.resolve);
         }
-        if let (true, Some(group)) = (sample.maps, &self.groups.maps) {
-            self.encode_pixels(encoder, sample, &self.pipelines.aov, group);
+        if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
+            self.encode_pixels(encoder, sample, pipeline, group);
         }
     }
 
@@ -352,7 +378,8 @@ impl Job {
         pipeline: &wgpu::ComputePipeline,
         group: &wgpu::BindGroup,
     ) {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
@@ -369,14 +396,17 @@ impl Job {
                 view: target,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
             })],
             depth_stencil_attachment: None,
             timestamp_writes: None,
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(&self.pipelines.finish);
+        pass.set_pipeline(&self.finish);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[0]);
         pass.set_bind_group(2, &self.groups.finish, &[]);
