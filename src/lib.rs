@@ -6,6 +6,8 @@ pub mod cli;
 pub mod cpu;
 mod error;
 pub mod frame;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod lens;
 pub mod output;
 pub mod plan;

@@ -1,0 +1,56 @@
+// What lies at the centre of each pixel: the visible fragment of SEMANTICS 6.4.
+
+// For each pixel: layers, node plus one, depth, normal, found, then the words of the set. Twin of `aov.rs`.
+@group(2) @binding(4) var<storage, read_write> maps: array<u32>;
+
+const MAP_WORDS: u32 = 7u + WORDS;
+
+@compute @workgroup_size(8, 8)
+fn aovs(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= frame.window_size) {
+        return;
+    }
+    let pixel = id.xy;
+    let ray = pixel_ray(pixel);
+    let tile = tile_at(pixel);
+    let opaque = opaque_at(pixel, ray);
+    var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
+    var visible: Fragment;
+    var normal = vec3f(0.0);
+    var found = 0u;
+    loop {
+        var pick = next_listed(pixel, last);
+        if opaque.found && is_before(opaque, pick) {
+            pick = opaque;
+        }
+        if !pick.found || !is_before(last, pick) {
+            break;
+        }
+        last = pick;
+        let fragment = classified(pick, tile, pixel);
+        let shaded = shade(fragment, ray);
+        if shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
+            continue;
+        }
+        let ends = shaded.opacity >= OPAQUE_FROM;
+        if ends || found == 0u {
+            visible = fragment;
+            normal = shaded.normal;
+            found = 1u;
+        }
+        if ends {
+            break;
+        }
+    }
+    let at = (pixel.y * frame.window_size.x + pixel.x) * MAP_WORDS;
+    maps[at] = layer_count(tile, pixel);
+    maps[at + 1u] = select(0u, items[visible.item].node, found != 0u);
+    maps[at + 2u] = bitcast<u32>(visible.depth);
+    maps[at + 3u] = bitcast<u32>(normal.x);
+    maps[at + 4u] = bitcast<u32>(normal.y);
+    maps[at + 5u] = bitcast<u32>(normal.z);
+    maps[at + 6u] = found;
+    for (var w = 0u; w < WORDS; w += 1u) {
+        maps[at + 7u + w] = visible.around.words[w];
+    }
+}

@@ -1,0 +1,237 @@
+// What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
+// `WORDS`, the number of 32-bit words of a lens set, is put in front of this file when it is assembled.
+// Positions are relative to the eye, along the world's axes, unless a name says otherwise.
+
+const NONE: u32 = 0xffffffffu;
+// Stands for infinity: infinite values are not reliable in WGSL.
+const FAR_AWAY: f32 = 1e37;
+const TILE: u32 = 16u;
+
+// Twin of `records::FrameRecord`.
+struct Frame {
+    // A ray is `fixed` and `base + x * dx + y * dy` at the point (x, y) of the whole picture, in pixels: origin and
+    // direction of a perspective camera, direction and origin of an orthographic one.
+    ray_fixed: vec4f,
+    ray_base: vec4f,
+    ray_dx: vec4f,
+    ray_dy: vec4f,
+    right: vec4f,
+    up: vec4f,
+    forward: vec4f,
+    // From clip coordinates of the whole picture to those of the window and the sample.
+    clip_scale: vec2f,
+    clip_shift: vec2f,
+    // Depths along `forward`.
+    near: f32,
+    far: f32,
+    perspective: u32,
+    // The layer that `peel` draws.
+    layer: u32,
+    // Pixels of the whole picture that are drawn.
+    window_min: vec2u,
+    window_size: vec2u,
+    // Where the sample lies in its pixel.
+    sample: vec2f,
+    sample_index: u32,
+    samples: u32,
+    // The up direction of ambient light; its strength.
+    ambient: vec4f,
+    // Maps the scene's bounds to 0..1: origin and scale.
+    texture_space: vec4f,
+    // Linear light, straight alpha.
+    background: vec4f,
+    light_count: u32,
+    fragment_capacity: u32,
+    active_tiles: u32,
+    // Not 0: the target encodes sRGB itself.
+    target_is_srgb: u32,
+    // Lenses that test every fragment; lenses that may make one translucent.
+    by_pixel: array<vec4u, 2>,
+    translucent: array<vec4u, 2>,
+}
+
+const ITEM_TRANSLUCENT: u32 = 1u;
+const ITEM_ALTERNATE: u32 = 2u;
+
+const MASK_SCOPE: u32 = 0u;
+const MASK_OBJECT: u32 = 1u;
+const MASK_SHOWN_BY: u32 = 2u;
+const MASK_REMOVED_BY: u32 = 3u;
+
+// Twin of `records::ItemRecord`, and the item's masks.
+struct Item {
+    // Rows of the map from local space.
+    row_x: vec4f,
+    row_y: vec4f,
+    row_z: vec4f,
+    // Rows of the map of normals.
+    normal_x: vec4f,
+    normal_y: vec4f,
+    normal_z: vec4f,
+    material: u32,
+    // Node index plus one.
+    node: u32,
+    first_triangle: u32,
+    flags: u32,
+    first_index: u32,
+    base_vertex: u32,
+    // Where each attribute starts in `attributes`, or NONE.
+    normals: u32,
+    tangents: u32,
+    colors: u32,
+    uv0: u32,
+    uv1: u32,
+    pad: u32,
+    masks: array<u32, 4u * WORDS>,
+}
+
+const FORM_EMPTY: u32 = 0u;
+const FORM_SPHERE: u32 = 1u;
+const FORM_CONE: u32 = 2u;
+const FORM_CAPSULE: u32 = 3u;
+const FORM_HALF_SPACES: u32 = 4u;
+const FORM_DEPTH_MAP: u32 = 5u;
+
+const LENS_FLAT: u32 = 1u;
+const LENS_GLASS: u32 = 2u;
+
+// Twin of `records::LensRecord`, and the lens's mask.
+struct Lens {
+    // The pixel's ray in the lens's own space, as in `Frame`.
+    ray_fixed: vec4f,
+    ray_base: vec4f,
+    ray_dx: vec4f,
+    ray_dy: vec4f,
+    // Columns of the map from normals in the lens's own space.
+    normal_x: vec4f,
+    normal_y: vec4f,
+    normal_z: vec4f,
+    glass: Glass,
+    form: u32,
+    flags: u32,
+    // Two vectors a plane in `lens_data`: the coefficients along rays and the normal. The first `hidden` are not seen.
+    first_plane: u32,
+    plane_count: u32,
+    hidden: u32,
+    // Corners of a flat lens in `lens_data`.
+    first_corner: u32,
+    corner_count: u32,
+    first_op: u32,
+    op_count: u32,
+    // Radii of a cone; length of a capsule.
+    r0: f32,
+    r1: f32,
+    length: f32,
+    // Where its depth map starts in `depth_maps`, and the pixels of the window that it covers.
+    map_first: u32,
+    map_pad: u32,
+    map_min: vec2u,
+    map_size: vec2u,
+    pad: vec2u,
+    hides: array<u32, WORDS>,
+}
+
+// Twin of `scene::TextureSlot`.
+struct TextureSlot {
+    texture: u32,
+    uv_set: u32,
+    offset: vec2f,
+    matrix: vec4f,
+}
+
+// Twin of `scene::MaterialRecord`.
+struct Material {
+    base_color: vec4f,
+    emissive: vec3f,
+    alpha_cutoff: f32,
+    metallic: f32,
+    roughness: f32,
+    normal_scale: f32,
+    occlusion_strength: f32,
+    alpha_mode: u32,
+    double_sided: u32,
+    unlit: u32,
+    pad: u32,
+    base_color_texture: TextureSlot,
+    metallic_roughness_texture: TextureSlot,
+    normal_texture: TextureSlot,
+    occlusion_texture: TextureSlot,
+    emissive_texture: TextureSlot,
+}
+
+// Twin of `records::TextureInfo`.
+struct TextureInfo {
+    wrap_u: u32,
+    wrap_v: u32,
+    filter_bits: u32,
+    srgb: u32,
+    level_count: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
+    // Each level's place on the pages: x, y, page, and width with the height in the upper half.
+    levels: array<vec4u, 16>,
+}
+
+// The scene: as long as it lives.
+@group(0) @binding(0) var<storage, read> positions: array<f32>;
+@group(0) @binding(1) var<storage, read> indices: array<u32>;
+@group(0) @binding(2) var<storage, read> attributes: array<f32>;
+@group(0) @binding(3) var<storage, read> materials: array<Material>;
+@group(0) @binding(4) var<storage, read> textures: array<TextureInfo>;
+@group(0) @binding(5) var pages: texture_2d_array<f32>;
+@group(0) @binding(6) var pages_srgb: texture_2d_array<f32>;
+
+// The plan: one frame.
+@group(1) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(1) var<storage, read> items: array<Item>;
+@group(1) @binding(2) var<storage, read> lenses: array<Lens>;
+@group(1) @binding(3) var<storage, read> lens_data: array<vec4f>;
+@group(1) @binding(4) var<storage, read> ops: array<Op>;
+@group(1) @binding(5) var<storage, read> lights: array<Light>;
+// Four words a tile (see `TileRecord`), then the tiles that lenses touch, then their lists of lenses.
+@group(1) @binding(6) var<storage, read> tiles: array<u32>;
+
+struct TileRecord {
+    // Where the layers of its first pixel are, and how many words each pixel has there.
+    layers: u32,
+    stride: u32,
+    // Its lenses in `tiles`.
+    first_lens: u32,
+    lens_count: u32,
+}
+
+fn tile_columns() -> u32 {
+    return (frame.window_size.x + TILE - 1u) / TILE;
+}
+
+fn tile_record(tile: u32) -> TileRecord {
+    let at = 4u * tile;
+    return TileRecord(tiles[at], tiles[at + 1u], tiles[at + 2u], tiles[at + 3u]);
+}
+
+// The tile of a pixel of the window.
+fn tile_at(pixel: vec2u) -> TileRecord {
+    return tile_record((pixel.y / TILE) * tile_columns() + pixel.x / TILE);
+}
+
+// Where a pixel's layers start.
+fn layers_at(tile: TileRecord, pixel: vec2u) -> u32 {
+    let local = pixel % TILE;
+    return tile.layers + (local.y * TILE + local.x) * tile.stride;
+}
+
+// The sample's place in the whole picture, in pixels from its top left corner.
+fn sample_point(pixel: vec2u) -> vec2f {
+    return vec2f(frame.window_min + pixel) + frame.sample;
+}
+
+fn pixel_ray(pixel: vec2u) -> PixelRay {
+    let at = sample_point(pixel);
+    let moving = frame.ray_base.xyz + frame.ray_dx.xyz * at.x + frame.ray_dy.xyz * at.y;
+    let still = vec3f(0.0);
+    if frame.perspective != 0u {
+        return PixelRay(frame.ray_fixed.xyz, moving, still, still, frame.ray_dx.xyz, frame.ray_dy.xyz);
+    }
+    return PixelRay(moving, frame.ray_fixed.xyz, frame.ray_dx.xyz, frame.ray_dy.xyz, still, still);
+}

@@ -1,0 +1,53 @@
+// What a pixel's ray met, nearest first: listed fragments and the opaque one that ends them.
+
+@group(2) @binding(0) var<storage, read> layers: array<u32>;
+@group(2) @binding(1) var<storage, read> heads: array<u32>;
+@group(2) @binding(2) var<storage, read> fragments: array<vec4u>;
+@group(2) @binding(3) var visibility: texture_2d<u32>;
+
+struct Pick {
+    depth: f32,
+    // At equal depths the lower is in front.
+    key: u32,
+    item: u32,
+    triangle: u32,
+    found: bool,
+}
+
+fn nothing() -> Pick {
+    return Pick(FAR_AWAY, NONE, 0u, 0u, false);
+}
+
+fn is_before(a: Pick, b: Pick) -> bool {
+    return a.depth < b.depth || (a.depth == b.depth && a.key < b.key);
+}
+
+fn opaque_at(pixel: vec2u, ray: PixelRay) -> Pick {
+    let seen = textureLoad(visibility, vec2i(pixel), 0);
+    if seen.x == 0u {
+        return nothing();
+    }
+    let item = seen.x - 1u;
+    let hit = surface_hit(ray, fetch_triangle(item, seen.y));
+    return Pick(hit.depth, items[item].first_triangle + seen.y, item, seen.y, true);
+}
+
+// The nearest listed fragment behind `after`.
+fn next_listed(pixel: vec2u, after: Pick) -> Pick {
+    var best = nothing();
+    var slot = heads[pixel.y * frame.window_size.x + pixel.x];
+    while slot != 0u {
+        let f = fragments[slot - 1u];
+        slot = f.w;
+        let candidate = Pick(bitcast<f32>(f.x), items[f.y].first_triangle + f.z, f.y, f.z, true);
+        if is_before(after, candidate) && is_before(candidate, best) {
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+fn classified(pick: Pick, tile: TileRecord, pixel: vec2u) -> Fragment {
+    let verdict = walk(pick.item, set_at(tile, pixel, pick.depth));
+    return Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack);
+}

@@ -1,0 +1,37 @@
+// Reads what `layers.wgsl` wrote: for each pixel of a tile that lenses touch the number of layers, then for each
+// layer its start depth and the set of lenses around it.
+
+const LAYER_WORDS: u32 = 1u + WORDS;
+
+fn layer_count(tile: TileRecord, pixel: vec2u) -> u32 {
+    if tile.lens_count == 0u {
+        return 1u;
+    }
+    return layers[layers_at(tile, pixel)];
+}
+
+fn layer_start(at: u32, layer: u32) -> f32 {
+    return bitcast<f32>(layers[at + 1u + layer * LAYER_WORDS]);
+}
+
+fn layer_set(at: u32, layer: u32) -> Set {
+    var around = Set();
+    for (var w = 0u; w < WORDS; w += 1u) {
+        around.words[w] = layers[at + 2u + layer * LAYER_WORDS + w];
+    }
+    return around;
+}
+
+// The lenses around a depth: `entry <= depth < exit`.
+fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
+    if tile.lens_count == 0u {
+        return Set();
+    }
+    let at = layers_at(tile, pixel);
+    for (var layer = layers[at]; layer > 0u; layer -= 1u) {
+        if layer_start(at, layer - 1u) <= depth {
+            return layer_set(at, layer - 1u);
+        }
+    }
+    return Set();
+}

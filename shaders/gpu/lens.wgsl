@@ -1,0 +1,195 @@
+// Where a pixel's ray enters and leaves a lens volume: closed forms in the lens's own space, in f32.
+
+struct Span {
+    entry: f32,
+    exit: f32,
+    entry_face: u32,
+    exit_face: u32,
+    // False: the ray misses or only grazes.
+    hit: bool,
+}
+
+struct LocalRay {
+    origin: vec3f,
+    direction: vec3f,
+}
+
+const CONE_SIDE: u32 = 2u;
+
+fn no_span() -> Span {
+    return Span(0.0, 0.0, 0u, 0u, false);
+}
+
+// In a solid's own space: the point for which the products below do not cancel, and its parameter.
+struct Anchored {
+    origin: vec3f,
+    shift: f32,
+}
+
+fn local_ray(rank: u32, at: vec2f) -> LocalRay {
+    let moving = lenses[rank].ray_base.xyz + lenses[rank].ray_dx.xyz * at.x + lenses[rank].ray_dy.xyz * at.y;
+    if frame.perspective != 0u {
+        return LocalRay(lenses[rank].ray_fixed.xyz, moving);
+    }
+    return LocalRay(moving, lenses[rank].ray_fixed.xyz);
+}
+
+// Starts a ray where it is nearest to `center`.
+fn anchored(ray: LocalRay, center: vec3f) -> Anchored {
+    let shift = dot(center - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+    return Anchored(ray.origin + ray.direction * shift, shift);
+}
+
+fn lens_span(rank: u32, at: vec2f) -> Span {
+    let ray = local_ray(rank, at);
+    var span = no_span();
+    switch lenses[rank].form {
+        case FORM_SPHERE: {
+            span = ball_span(ray, vec3f(0.0));
+        }
+        case FORM_CONE: {
+            span = cone_span(ray, lenses[rank].r0, lenses[rank].r1);
+        }
+        case FORM_CAPSULE: {
+            span = capsule_span(ray, lenses[rank].length);
+        }
+        case FORM_HALF_SPACES: {
+            span = half_space_span(rank, at);
+        }
+        default: {
+        }
+    }
+    span.hit = span.hit && span.exit > span.entry;
+    return span;
+}
+
+fn ball_span(ray: LocalRay, center: vec3f) -> Span {
+    let start = anchored(ray, center);
+    let a = dot(ray.direction, ray.direction);
+    let offset = start.origin - center;
+    let c = dot(offset, offset) - 1.0;
+    if c >= 0.0 {
+        return no_span();
+    }
+    let half = sqrt(-c / a);
+    return Span(start.shift - half, start.shift + half, 0u, 0u, true);
+}
+
+// Whether the ray's point at `t` lies within the radius that the cone has at its height.
+fn within_cone(origin: vec3f, direction: vec3f, t: f32, r0: f32, slope: f32) -> bool {
+    if abs(t) >= FAR_AWAY {
+        return false;
+    }
+    let p = origin + direction * t;
+    let r = r0 + slope * p.z;
+    return dot(p.xy, p.xy) <= r * r;
+}
+
+fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
+    let start = anchored(ray, vec3f(0.0, 0.0, 0.5));
+    let o = start.origin;
+    let d = ray.direction;
+    var t0 = -FAR_AWAY;
+    var t1 = FAR_AWAY;
+    if d.z != 0.0 {
+        let low = clamp(-o.z / d.z, -FAR_AWAY, FAR_AWAY);
+        let high = clamp((1.0 - o.z) / d.z, -FAR_AWAY, FAR_AWAY);
+        t0 = min(low, high);
+        t1 = max(low, high);
+    } else if o.z < 0.0 || o.z > 1.0 {
+        return no_span();
+    }
+    let slope = r1 - r0;
+    let radius = r0 + slope * o.z;
+    let a = dot(d.xy, d.xy) - slope * slope * d.z * d.z;
+    let b = dot(o.xy, d.xy) - slope * d.z * radius;
+    let c = dot(o.xy, o.xy) - radius * radius;
+    // Where a t^2 + 2 b t + c falls and rises through zero, without cancellation, for any a.
+    let discriminant = b * b - a * c;
+    var falls = FAR_AWAY;
+    var rises = -FAR_AWAY;
+    if discriminant > 0.0 {
+        let root = sqrt(discriminant);
+        if b > 0.0 {
+            falls = (-b - root) / select(a, 1e-30, a == 0.0);
+            rises = c / (-b - root);
+        } else {
+            falls = c / (-b + root);
+            rises = (-b + root) / select(a, 1e-30, a == 0.0);
+        }
+    }
+    var span = no_span();
+    let up = d.z > 0.0;
+    if within_cone(o, d, t0, r0, slope) {
+        span.entry = t0;
+        span.entry_face = select(1u, 0u, up);
+    } else if falls > t0 && falls < t1 {
+        span.entry = falls;
+        span.entry_face = CONE_SIDE;
+    } else {
+        return no_span();
+    }
+    if within_cone(o, d, t1, r0, slope) {
+        span.exit = t1;
+        span.exit_face = select(0u, 1u, up);
+    } else if rises > t0 && rises < t1 {
+        span.exit = rises;
+        span.exit_face = CONE_SIDE;
+    } else {
+        return no_span();
+    }
+    span.entry += start.shift;
+    span.exit += start.shift;
+    span.hit = true;
+    return span;
+}
+
+// Two balls and the cylinder between them: their union is convex.
+fn capsule_span(ray: LocalRay, length: f32) -> Span {
+    var span = united(ball_span(ray, vec3f(0.0)), ball_span(ray, vec3f(0.0, 0.0, length)));
+    if length > 0.0 {
+        let squeeze = vec3f(1.0, 1.0, 1.0 / length);
+        span = united(span, cone_span(LocalRay(ray.origin * squeeze, ray.direction * squeeze), 1.0, 1.0));
+    }
+    span.entry_face = 0u;
+    span.exit_face = 0u;
+    return span;
+}
+
+fn united(a: Span, b: Span) -> Span {
+    if !a.hit {
+        return b;
+    }
+    if !b.hit {
+        return a;
+    }
+    return Span(min(a.entry, b.entry), max(a.exit, b.exit), 0u, 0u, true);
+}
+
+fn half_space_span(rank: u32, at: vec2f) -> Span {
+    var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
+    let first = lenses[rank].first_plane;
+    for (var face = 0u; face < lenses[rank].plane_count; face += 1u) {
+        let k = lens_data[first + 2u * face];
+        let moving = k.y + k.z * at.x + k.w * at.y;
+        let distance = select(moving, k.x, frame.perspective != 0u);
+        let rate = select(k.x, moving, frame.perspective != 0u);
+        if rate == 0.0 {
+            if distance > 0.0 {
+                return no_span();
+            }
+            continue;
+        }
+        let t = clamp(-distance / rate, -FAR_AWAY, FAR_AWAY);
+        if rate < 0.0 {
+            if t > span.entry {
+                span.entry = t;
+                span.entry_face = face;
+            }
+        } else if t < span.exit {
+            span.exit = t;
+            span.exit_face = face;
+        }
+    }
+    return span;
+}

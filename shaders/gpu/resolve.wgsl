@@ -1,0 +1,57 @@
+// Composites each pixel's fragments and lens surfaces front to back, exactly, however many there are.
+
+// Premultiplied linear colour, summed over the samples.
+@group(2) @binding(4) var<storage, read_write> accumulated: array<vec4f>;
+
+fn glass_over(front: vec4f, hit: GlassHit, at: vec2f, ray: PixelRay) -> vec4f {
+    let color = glass_color(hit, at, ray);
+    return over(front, color.rgb, color.a);
+}
+
+fn composited(pixel: vec2u) -> vec4f {
+    let ray = pixel_ray(pixel);
+    let at = sample_point(pixel);
+    let tile = tile_at(pixel);
+    let opaque = opaque_at(pixel, ray);
+    var front = vec4f(0.0);
+    var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
+    var glass = next_glass(tile, at, GlassHit(-FAR_AWAY, 0u, false));
+    loop {
+        var pick = next_listed(pixel, last);
+        if opaque.found && is_before(opaque, pick) {
+            pick = opaque;
+        }
+        // The opaque one was the last.
+        if pick.found && !is_before(last, pick) {
+            pick = nothing();
+        }
+        while glass.found && glass.depth < pick.depth {
+            front = glass_over(front, glass, at, ray);
+            glass = next_glass(tile, at, glass);
+        }
+        if !pick.found {
+            break;
+        }
+        let shaded = shade(classified(pick, tile, pixel), ray);
+        let opacity = shaded.opacity * shaded.coverage;
+        front = over(front, shaded.color, opacity);
+        if opacity >= OPAQUE_FROM {
+            break;
+        }
+        last = pick;
+    }
+    return front;
+}
+
+@compute @workgroup_size(8, 8)
+fn resolve(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= frame.window_size) {
+        return;
+    }
+    let at = id.y * frame.window_size.x + id.x;
+    var sum = composited(id.xy);
+    if frame.sample_index > 0u {
+        sum += accumulated[at];
+    }
+    accumulated[at] = sum;
+}

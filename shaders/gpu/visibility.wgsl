@@ -1,0 +1,92 @@
+// Draws the scene: the nearest opaque fragment of each pixel, and lists of all that may be translucent.
+
+@group(2) @binding(0) var<storage, read> layers: array<u32>;
+// For each pixel of the window its newest fragment plus one.
+@group(2) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
+// Depth, item, triangle, and the next fragment plus one.
+@group(2) @binding(2) var<storage, read_write> fragments: array<vec4u>;
+// How many fragments each sample needed.
+@group(2) @binding(3) var<storage, read_write> needed: array<atomic<u32>>;
+
+struct Varying {
+    @invariant @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) item: u32,
+}
+
+@vertex
+fn vertex(@location(0) local: vec3f, @builtin(instance_index) item: u32) -> Varying {
+    let p = to_eye(item, local);
+    let depth = dot(p, frame.forward.xyz);
+    // Reverse-Z: infinite far plane in perspective, linear otherwise.
+    var clip = vec4f(dot(p, frame.right.xyz), dot(p, frame.up.xyz), frame.near, depth);
+    if frame.perspective == 0u {
+        clip.z = (frame.far - depth) / (frame.far - frame.near);
+        clip.w = 1.0;
+    }
+    let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
+    return Varying(vec4f(moved, clip.zw), item);
+}
+
+// For items that no lens can remove or make translucent and that lie between near and far.
+@fragment
+fn plain(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+    return vec2u(in.item + 1u, triangle);
+}
+
+// `fused`: the fragment finds its layer, its region and its stack itself.
+@fragment
+fn fused(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+    let pixel = vec2u(in.position.xy);
+    let tile = tile_at(pixel);
+    let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
+    if hit.depth < frame.near || hit.depth > frame.far {
+        discard;
+    }
+    return keep(in.item, triangle, pixel, hit.depth, set_at(tile, pixel, hit.depth));
+}
+
+// `peel`: one layer at a time, its set of lenses taken from the layer.
+@fragment
+fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+    let pixel = vec2u(in.position.xy);
+    let tile = tile_at(pixel);
+    let count = layer_count(tile, pixel);
+    if frame.layer >= count {
+        discard;
+    }
+    let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
+    if hit.depth < frame.near || hit.depth > frame.far {
+        discard;
+    }
+    if tile.lens_count == 0u {
+        return keep(in.item, triangle, pixel, hit.depth, Set());
+    }
+    let at = layers_at(tile, pixel);
+    let starts_later = hit.depth < layer_start(at, frame.layer);
+    let ends_before = frame.layer + 1u < count && hit.depth >= layer_start(at, min(frame.layer + 1u, count - 1u));
+    if starts_later || ends_before {
+        discard;
+    }
+    return keep(in.item, triangle, pixel, hit.depth, layer_set(at, frame.layer));
+}
+
+// What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
+fn keep(item: u32, triangle: u32, pixel: vec2u, depth: f32, inside: Set) -> vec2u {
+    let verdict = walk(item, inside);
+    if !verdict.displayed {
+        discard;
+    }
+    if may_be_translucent(item, verdict.stack) {
+        append(pixel, depth, item, triangle);
+        discard;
+    }
+    return vec2u(item + 1u, triangle);
+}
+
+fn append(pixel: vec2u, depth: f32, item: u32, triangle: u32) {
+    let slot = atomicAdd(&needed[frame.sample_index], 1u);
+    if slot < frame.fragment_capacity {
+        let next = atomicExchange(&heads[pixel.y * frame.window_size.x + pixel.x], slot + 1u);
+        fragments[slot] = vec4u(bitcast<u32>(depth), item, triangle, next);
+    }
+}

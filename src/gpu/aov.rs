@@ -1,0 +1,42 @@
+//! Reads the maps of pixel centres that `shaders/gpu/aov.wgsl` writes.
+
+use super::Window;
+use crate::frame::Aovs;
+use crate::plan::LensSet;
+
+/// Words a pixel ahead of those of its set; `MAP_WORDS` of the shader.
+const FIXED_WORDS: u32 = 7;
+
+/// Bytes that the maps of a window need.
+pub fn bytes(window: &Window, words: u32) -> u64 {
+    4 * u64::from(FIXED_WORDS + words) * window.pixels()
+}
+
+/// Maps of a whole picture where nothing is.
+pub fn empty(size: [u32; 2]) -> Aovs {
+    let count = size[0] as usize * size[1] as usize;
+    Aovs {
+        sets: vec![None; count],
+        nodes: vec![0; count],
+        depth: vec![f32::INFINITY; count],
+        normals: vec![[0.0; 3]; count],
+        layers: vec![1; count],
+    }
+}
+
+/// Puts a window's share into the maps of a picture of the given width.
+pub fn store(maps: &mut Aovs, width: u32, window: &Window, words: u32, bytes: &[u8]) {
+    let stride = (FIXED_WORDS + words) as usize;
+    let values: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    for (i, pixel) in values.chunks_exact(stride).take(window.pixels() as usize).enumerate() {
+        let (x, y) = (i as u32 % window.size[0], i as u32 / window.size[0]);
+        let at = ((window.min[1] + y) * width + window.min[0] + x) as usize;
+        maps.layers[at] = pixel[0] as u16;
+        if pixel[6] != 0 {
+            maps.nodes[at] = pixel[1] as u16;
+            maps.depth[at] = f32::from_bits(pixel[2]);
+            maps.normals[at] = [pixel[3], pixel[4], pixel[5]].map(f32::from_bits);
+            maps.sets[at] = Some(LensSet::from_words(&pixel[FIXED_WORDS as usize..]));
+        }
+    }
+}

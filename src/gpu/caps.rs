@@ -1,0 +1,113 @@
+//! Which adapter is used and what is asked of it, in one place.
+
+use super::Error;
+
+/// An adapter and one line on why it was chosen.
+#[derive(Debug, Clone)]
+pub struct AdapterChoice {
+    pub adapter: wgpu::Adapter,
+    pub reason: String,
+}
+
+/// Every adapter of the native backends, hardware first.
+pub fn adapters() -> Vec<wgpu::Adapter> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let mut found = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+    found.sort_by_key(|adapter| preference(adapter.get_info().device_type));
+    found
+}
+
+/// Discrete before integrated before virtual; software last.
+fn preference(kind: wgpu::DeviceType) -> u32 {
+    match kind {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    }
+}
+
+fn is_hardware(adapter: &wgpu::Adapter) -> bool {
+    preference(adapter.get_info().device_type) <= 2
+}
+
+/// The adapter for `auto`: real hardware that can do what is needed, else an error that says what there is.
+pub fn choose_hardware() -> Result<AdapterChoice, Error> {
+    let found = adapters();
+    match found.iter().find(|adapter| is_hardware(adapter) && missing_feature(adapter).is_none()) {
+        Some(adapter) => Ok(chosen(adapter, "it is a hardware adapter")),
+        None => Err(Error::NoAdapter { wanted: " that is hardware".into(), found: names(&found) }),
+    }
+}
+
+/// The adapter when the GPU is asked for: the first whose name holds `name`, software ones included.
+pub fn choose_named(name: Option<&str>) -> Result<AdapterChoice, Error> {
+    let found = adapters();
+    let matches = |adapter: &&wgpu::Adapter| {
+        name.is_none_or(|n| adapter.get_info().name.to_lowercase().contains(&n.to_lowercase()))
+    };
+    let Some(adapter) = found.iter().find(matches) else {
+        let wanted = name.map(|n| format!(" named `{n}`")).unwrap_or_default();
+        return Err(Error::NoAdapter { wanted, found: names(&found) });
+    };
+    if let Some(feature) = missing_feature(adapter) {
+        return Err(Error::MissingFeature { adapter: describe(adapter), feature });
+    }
+    let reason = match (name, is_hardware(adapter)) {
+        (Some(_), _) => "it was asked for by name",
+        (None, true) => "the GPU was asked for and it is the best hardware adapter",
+        (None, false) => "the GPU was asked for and there is no hardware adapter",
+    };
+    Ok(chosen(adapter, reason))
+}
+
+fn chosen(adapter: &wgpu::Adapter, why: &str) -> AdapterChoice {
+    AdapterChoice { adapter: adapter.clone(), reason: format!("{}: {why}", describe(adapter)) }
+}
+
+fn names(found: &[wgpu::Adapter]) -> String {
+    let names: Vec<String> = found.iter().map(describe).collect();
+    if names.is_empty() { "none".into() } else { names.join(", ") }
+}
+
+/// Name, kind and driver in a few words.
+pub fn describe(adapter: &wgpu::Adapter) -> String {
+    let info = adapter.get_info();
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => "discrete GPU",
+        wgpu::DeviceType::IntegratedGpu => "integrated GPU",
+        wgpu::DeviceType::VirtualGpu => "virtual GPU",
+        wgpu::DeviceType::Cpu => "software",
+        wgpu::DeviceType::Other => "unknown kind",
+    };
+    format!("{} ({kind}, {}, {})", info.name, info.backend, info.driver_info)
+}
+
+/// What every adapter must have.
+///
+/// `PRIMITIVE_INDEX`: a pixel of the visibility pass names its triangle; shading reads all else from buffers.
+pub fn required_features() -> wgpu::Features {
+    wgpu::Features::PRIMITIVE_INDEX
+}
+
+fn missing_feature(adapter: &wgpu::Adapter) -> Option<String> {
+    let missing = required_features() - adapter.features();
+    (!missing.is_empty()).then(|| format!("{missing:?}"))
+}
+
+/// Storage buffers a shader stage binds: the scene (5), the plan (6), and the pixel's layers, lists and colours (4).
+const STORAGE_BUFFERS: u32 = 15;
+
+/// The limits asked for: the defaults, and as much memory and texture as the adapter has, since full pictures of
+/// layers and fragments outgrow the defaults. Needs are checked against them before anything is drawn.
+pub fn required_limits(adapter: &wgpu::Limits) -> wgpu::Limits {
+    wgpu::Limits {
+        max_storage_buffers_per_shader_stage: STORAGE_BUFFERS,
+        max_storage_buffer_binding_size: adapter.max_storage_buffer_binding_size,
+        max_buffer_size: adapter.max_buffer_size,
+        max_texture_dimension_2d: adapter.max_texture_dimension_2d,
+        max_texture_array_layers: adapter.max_texture_array_layers,
+        ..wgpu::Limits::default()
+    }
+}

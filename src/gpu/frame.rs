@@ -1,0 +1,112 @@
+//! The uniform records of a frame: one for each sample or, for `peel`, for each layer of each sample.
+
+use glam::DVec2;
+
+use super::lens_data::AffineRay;
+use super::records::{FrameRecord, all_words, extended};
+use super::tiles::Tiles;
+use super::{Engine, Window};
+use crate::plan::{LensSet, Plan};
+use crate::view::Projection;
+
+/// One pass of the whole pipeline over a window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Where it lies in its pixel, in pixels from the top left corner.
+    pub at: DVec2,
+    pub index: u32,
+    /// Counts towards the picture; else it is only for the maps of pixel centres.
+    pub colors: bool,
+    pub maps: bool,
+}
+
+/// The samples of a plan: a square grid and, when maps are asked for, the pixel's centre.
+pub fn samples(plan: &Plan, aovs: bool) -> Vec<Sample> {
+    let side = f64::from(plan.samples).sqrt().round().max(1.0) as u32;
+    let offset = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
+    let mut samples: Vec<Sample> = (0..side * side)
+        .map(|index| Sample {
+            at: DVec2::new(offset(index % side), offset(index / side)),
+            index,
+            colors: true,
+            maps: aovs && side == 1,
+        })
+        .collect();
+    if aovs && side > 1 {
+        samples.push(Sample { at: DVec2::splat(0.5), index: side * side, colors: false, maps: true });
+    }
+    samples
+}
+
+/// How often the scene is drawn for a sample.
+pub fn passes(engine: Engine, tiles: &Tiles) -> u32 {
+    match engine {
+        Engine::Fused => 1,
+        Engine::Peel => 2 * tiles.most_lenses + 1,
+    }
+}
+
+/// What all records of a frame share.
+pub struct FrameShape<'a> {
+    pub plan: &'a Plan,
+    pub window: Window,
+    pub tiles: &'a Tiles,
+    pub fragment_capacity: u32,
+    pub target_is_srgb: bool,
+}
+
+impl FrameShape<'_> {
+    /// The record of one sample and layer.
+    pub fn record(&self, sample: &Sample, layer: u32) -> FrameRecord {
+        let plan = self.plan;
+        let view = &plan.view;
+        let ray = AffineRay::new(view);
+        let (clip_scale, clip_shift) = self.clip(sample.at);
+        let space = plan.texture_space;
+        let translucent: LensSet = (0..plan.lenses.len()).filter(|rank| plan.lenses[*rank].translucent).collect();
+        FrameRecord {
+            ray_fixed: extended(ray.fixed),
+            ray_base: extended(ray.base),
+            ray_dx: extended(ray.dx),
+            ray_dy: extended(ray.dy),
+            right: extended(view.right),
+            up: extended(view.up),
+            forward: extended(view.forward),
+            clip_scale: clip_scale.as_vec2().to_array(),
+            clip_shift: clip_shift.as_vec2().to_array(),
+            near: view.near as f32,
+            far: view.far as f32,
+            perspective: u32::from(view.is_perspective()),
+            layer,
+            window_min: self.window.min,
+            window_size: self.window.size,
+            sample: sample.at.as_vec2().to_array(),
+            sample_index: sample.index,
+            samples: plan.samples,
+            ambient: plan.lighting.up.extend(plan.lighting.ambient).to_array(),
+            texture_space: (space.origin.as_dvec3() - view.eye).as_vec3().extend(space.scale).to_array(),
+            background: plan.background,
+            light_count: plan.lighting.lights.len() as u32,
+            fragment_capacity: self.fragment_capacity,
+            active_tiles: self.tiles.active,
+            target_is_srgb: u32::from(self.target_is_srgb),
+            by_pixel: all_words(&plan.by_pixel),
+            translucent: all_words(&translucent),
+        }
+    }
+
+    /// Scale and shift of clip coordinates: from view space to the window, moved so that the middle of each of its
+    /// pixels falls on the sample.
+    fn clip(&self, sample: DVec2) -> (DVec2, DVec2) {
+        let view = &self.plan.view;
+        let double = |v: [u32; 2]| DVec2::new(f64::from(v[0]), f64::from(v[1]));
+        let (whole, window, min) = (double(view.size), double(self.window.size), double(self.window.min));
+        let half = match view.projection {
+            Projection::Perspective { tan_half_y } => tan_half_y,
+            Projection::Orthographic { half_height } => half_height,
+        };
+        let picture = DVec2::new(whole.y / whole.x, 1.0) / half;
+        let shift = (whole + 1.0 - 2.0 * sample - 2.0 * min) / window - 1.0;
+        (picture * whole / window, DVec2::new(shift.x, -shift.y))
+    }
+}

@@ -1,0 +1,255 @@
+//! A device without a window: for the program and the tests.
+
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+use super::readback::{Readback, row_bytes};
+use super::renderer::{Job, Renderer};
+use super::targets::FRAGMENT_BYTES;
+use super::upload::largest_buffer;
+use super::{AdapterChoice, Error, RenderOptions, Window, aov, caps};
+use crate::frame::{Aovs, Frame};
+use crate::plan::Plan;
+use crate::scene::Scene;
+
+/// Pictures come back as these bytes.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Owns a device; renders and reads back.
+#[derive(Debug)]
+pub struct Headless {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    /// What the device reported outside of any call's result.
+    reported: Arc<Mutex<Option<String>>>,
+    /// Which adapter this is and why it was chosen.
+    pub reason: String,
+}
+
+/// Wall-clock seconds of each stage, summed over samples and windows.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Timings {
+    /// Upload of the scene and compilation of shaders.
+    pub setup: f64,
+    /// Upload of the plan.
+    pub prepare: f64,
+    pub layers: f64,
+    pub visibility: f64,
+    pub resolve: f64,
+    pub finish: f64,
+    pub readback: f64,
+}
+
+/// A picture in the making.
+struct Picture {
+    size: [u32; 2],
+    pixels: Vec<[u8; 4]>,
+    aovs: Option<Aovs>,
+}
+
+impl Headless {
+    pub fn new(choice: &AdapterChoice) -> Result<Self, Error> {
+        let adapter = &choice.adapter;
+        let request = adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("lenspeel"),
+            required_features: caps::required_features(),
+            required_limits: caps::required_limits(&adapter.limits()),
+            ..Default::default()
+        });
+        let (device, queue) = pollster::block_on(request).map_err(|e| Error::Device(e.to_string()))?;
+        let reported = Arc::new(Mutex::new(None));
+        let first = reported.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            if let Ok(mut slot) = first.lock() {
+                slot.get_or_insert(error.to_string());
+            }
+        }));
+        Ok(Self { device, queue, reported, reason: choice.reason.clone() })
+    }
+
+    /// Uploads a scene for any number of renders.
+    pub fn renderer(&self, scene: &Scene) -> Result<Renderer, Error> {
+        Renderer::new(&self.device, &self.queue, scene, FORMAT)
+    }
+
+    /// The picture of a plan, in several windows if one would outgrow the device.
+    pub fn render(&self, scene: &Scene, plan: &Plan, options: RenderOptions) -> Result<Frame, Error> {
+        let mut renderer = self.renderer(scene)?;
+        self.render_with(&mut renderer, scene, plan, options, &mut None)
+    }
+
+    /// The same with a renderer that has been made before. Times each stage when asked to, waiting for one after the other.
+    pub fn render_with(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        plan: &Plan,
+        options: RenderOptions,
+        timings: &mut Option<Timings>,
+    ) -> Result<Frame, Error> {
+        let size = plan.view.size;
+        let mut picture = Picture {
+            size,
+            pixels: vec![[0; 4]; size[0] as usize * size[1] as usize],
+            aovs: options.aovs.then(|| aov::empty(size)),
+        };
+        let mut windows = vec![Window::whole(&plan.view)];
+        while let Some(window) = windows.pop() {
+            match self.render_window(renderer, scene, plan, window, options, timings, &mut picture) {
+                Err(error) => windows.extend(smaller(&window, error)?),
+                Ok(()) => continue,
+            }
+        }
+        Ok(Frame { size, pixels: picture.pixels, aovs: picture.aovs })
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the parts of one call, handed on as they came")]
+    fn render_window(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+        options: RenderOptions,
+        timings: &mut Option<Timings>,
+        picture: &mut Picture,
+    ) -> Result<(), Error> {
+        loop {
+            let start = Instant::now();
+            let job = renderer.prepare(&self.device, scene, plan, window, options)?;
+            if let Some(timings) = timings {
+                timings.prepare += start.elapsed().as_secs_f64();
+            }
+            let needed = self.draw(&job, timings, picture)?;
+            if needed <= job.fragment_capacity {
+                return Ok(());
+            }
+            let (bytes, allowed) = (needed * FRAGMENT_BYTES, largest_buffer(&self.device));
+            if bytes > allowed {
+                return Err(Error::TooLarge { what: "the translucent fragments".into(), needed: bytes, allowed });
+            }
+            // A little more, so that the next frame of an animation fits, too.
+            renderer.reserve_fragments((needed + needed / 8).min(allowed / FRAGMENT_BYTES));
+        }
+    }
+
+    /// Draws a window into the picture and says how many fragments its lists needed.
+    fn draw(&self, job: &Job, timings: &mut Option<Timings>, picture: &mut Picture) -> Result<u64, Error> {
+        let [width, height] = job.window.size;
+        let target = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view = target.create_view(&Default::default());
+        let mut stages = Stages { headless: self, encoder: None, timings };
+        for sample in &job.samples {
+            stages.run(|t| &mut t.layers, |e| job.encode_layers(e, sample))?;
+            stages.run(|t| &mut t.visibility, |e| job.encode_visibility(e, sample))?;
+            stages.run(|t| &mut t.resolve, |e| job.encode_resolve(e, sample))?;
+        }
+        stages.run(|t| &mut t.finish, |e| job.encode_finish(e, &view))?;
+        stages.end()?;
+        let start = Instant::now();
+        let mut encoder = self.encoder();
+        let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed_fragments);
+        let pixels = Readback::of_texture(&self.device, &mut encoder, &target);
+        let maps = job.maps.as_ref().map(|maps| Readback::of_buffer(&self.device, &mut encoder, maps));
+        self.queue.submit([encoder.finish()]);
+        let needed = largest(&counts.bytes(&self.device)?);
+        if needed <= job.fragment_capacity {
+            picture.store(&job.window, &pixels.bytes(&self.device)?);
+            if let (Some(aovs), Some(maps)) = (&mut picture.aovs, maps) {
+                aov::store(aovs, picture.size[0], &job.window, job.words, &maps.bytes(&self.device)?);
+            }
+        }
+        if let Some(timings) = timings {
+            timings.readback += start.elapsed().as_secs_f64();
+        }
+        self.check()?;
+        Ok(needed)
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&Default::default())
+    }
+
+    fn wait(&self) -> Result<(), Error> {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| Error::Lost(e.to_string()))?;
+        self.check()
+    }
+
+    /// Fails when the device has reported something.
+    fn check(&self) -> Result<(), Error> {
+        match self.reported.lock().map(|mut slot| slot.take()) {
+            Ok(None) => Ok(()),
+            Ok(Some(message)) => Err(Error::Lost(message)),
+            Err(error) => Err(Error::Lost(error.to_string())),
+        }
+    }
+}
+
+/// Encodes stages into one submission, or each into its own when they are timed.
+struct Stages<'a> {
+    headless: &'a Headless,
+    encoder: Option<wgpu::CommandEncoder>,
+    timings: &'a mut Option<Timings>,
+}
+
+impl Stages<'_> {
+    fn run(
+        &mut self,
+        slot: impl Fn(&mut Timings) -> &mut f64,
+        encode: impl FnOnce(&mut wgpu::CommandEncoder),
+    ) -> Result<(), Error> {
+        let encoder = self.encoder.get_or_insert_with(|| self.headless.encoder());
+        encode(encoder);
+        if self.timings.is_some() {
+            let start = Instant::now();
+            self.end()?;
+            if let Some(timings) = self.timings {
+                *slot(timings) += start.elapsed().as_secs_f64();
+            }
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<(), Error> {
+        if let Some(encoder) = self.encoder.take() {
+            self.headless.queue.submit([encoder.finish()]);
+            self.headless.wait()?;
+        }
+        Ok(())
+    }
+}
+
+impl Picture {
+    /// Puts a window's rows where they belong.
+    fn store(&mut self, window: &Window, bytes: &[u8]) {
+        let row = row_bytes(window.size[0]) as usize;
+        let length = window.size[0] as usize;
+        for (y, source) in (0u32..).zip(bytes.chunks_exact(row)) {
+            let start = ((window.min[1] + y) * self.size[0] + window.min[0]) as usize;
+            self.pixels[start..start + length].copy_from_slice(bytemuck::cast_slice(&source[..4 * length]));
+        }
+    }
+}
+
+fn largest(counts: &[u8]) -> u64 {
+    counts.chunks_exact(4).map(|b| u64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))).max().unwrap_or(0)
+}
+
+/// The halves of a window that outgrew the device, the upper last so that it is drawn first; any other error stays one.
+fn smaller(window: &Window, error: Error) -> Result<[Window; 2], Error> {
+    let too_large = matches!(&error, Error::TooLarge { what, .. } if !what.starts_with("the scene's"))
+        || matches!(&error, Error::TextureTooLarge { name, .. } if name == "of the picture");
+    match (too_large, window.halves()) {
+        (true, Some([first, second])) => Ok([second, first]),
+        _ => Err(error),
+    }
+}

@@ -1,0 +1,53 @@
+//! The wgpu backend: the scene is drawn once for each content (`fused`) or once for each layer (`peel`), and a
+//! compute pass composites every pixel's fragments exactly.
+//!
+//! [`Renderer`] borrows device, queue, encoder and target and never submits; [`Headless`] owns a device.
+
+mod aov;
+mod atlas;
+mod bindings;
+mod caps;
+mod draws;
+mod error;
+mod frame;
+mod headless;
+mod lens_data;
+mod pipelines;
+mod readback;
+mod records;
+mod renderer;
+mod shaders;
+mod targets;
+mod tiles;
+mod upload;
+mod window;
+
+pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe, required_features, required_limits};
+pub use error::Error;
+pub use headless::{Headless, Timings};
+pub use renderer::{Encoded, Renderer};
+pub use shaders::{Module, source};
+pub use window::Window;
+
+pub mod layout {
+    //! The records shared with WGSL, for tests that compare their layouts.
+    pub use super::records::{FrameRecord, ItemRecord, LensRecord, TextureInfo};
+}
+
+/// How the scene meets the layers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// The scene is drawn once for each content; a fragment finds its layer, its region and its stack itself.
+    #[default]
+    Fused,
+    /// The scene is drawn once for each layer, farthest first, kept between that layer's two depths.
+    Peel,
+}
+
+/// What a render gives beside the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RenderOptions {
+    pub engine: Engine,
+    /// Also what lies at the centre of each pixel.
+    pub aovs: bool,
+}

@@ -1,0 +1,149 @@
+//! Records as the shaders read them: twins of the structs in `shaders/gpu/common.wgsl`.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::plan::{GlassRecord, LensSet};
+
+/// Stands for "not there" in an index.
+pub const NONE: u32 = u32::MAX;
+
+pub const ITEM_TRANSLUCENT: u32 = 1;
+pub const ITEM_ALTERNATE: u32 = 2;
+
+pub const FORM_EMPTY: u32 = 0;
+pub const FORM_SPHERE: u32 = 1;
+pub const FORM_CONE: u32 = 2;
+pub const FORM_CAPSULE: u32 = 3;
+pub const FORM_HALF_SPACES: u32 = 4;
+pub const FORM_DEPTH_MAP: u32 = 5;
+
+pub const LENS_FLAT: u32 = 1;
+pub const LENS_GLASS: u32 = 2;
+
+/// One sample, or one layer of one, of a frame.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct FrameRecord {
+    /// A ray is `ray_fixed` and `ray_base + x ray_dx + y ray_dy` at a point of the whole picture, in pixels: origin and
+    /// direction of a perspective camera, direction and origin of an orthographic one; relative to the eye.
+    pub ray_fixed: [f32; 4],
+    pub ray_base: [f32; 4],
+    pub ray_dx: [f32; 4],
+    pub ray_dy: [f32; 4],
+    pub right: [f32; 4],
+    pub up: [f32; 4],
+    pub forward: [f32; 4],
+    pub clip_scale: [f32; 2],
+    pub clip_shift: [f32; 2],
+    pub near: f32,
+    pub far: f32,
+    pub perspective: u32,
+    pub layer: u32,
+    pub window_min: [u32; 2],
+    pub window_size: [u32; 2],
+    pub sample: [f32; 2],
+    pub sample_index: u32,
+    pub samples: u32,
+    pub ambient: [f32; 4],
+    pub texture_space: [f32; 4],
+    pub background: [f32; 4],
+    pub light_count: u32,
+    pub fragment_capacity: u32,
+    pub active_tiles: u32,
+    pub target_is_srgb: u32,
+    pub by_pixel: [u32; 8],
+    pub translucent: [u32; 8],
+}
+
+/// One item; its masks follow.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct ItemRecord {
+    /// Rows of the map from local space to the space around the eye.
+    pub row_x: [f32; 4],
+    pub row_y: [f32; 4],
+    pub row_z: [f32; 4],
+    pub normal_x: [f32; 4],
+    pub normal_y: [f32; 4],
+    pub normal_z: [f32; 4],
+    pub material: u32,
+    /// Node index plus one.
+    pub node: u32,
+    pub first_triangle: u32,
+    pub flags: u32,
+    pub first_index: u32,
+    pub base_vertex: u32,
+    /// Where each attribute starts, in floats, or [`NONE`].
+    pub normals: u32,
+    pub tangents: u32,
+    pub colors: u32,
+    pub uv0: u32,
+    pub uv1: u32,
+    pub pad: u32,
+}
+
+/// One lens; the set that it hides follows.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct LensRecord {
+    /// The pixel's ray in the lens's own space.
+    pub ray_fixed: [f32; 4],
+    pub ray_base: [f32; 4],
+    pub ray_dx: [f32; 4],
+    pub ray_dy: [f32; 4],
+    /// Columns of the map from normals in the lens's own space.
+    pub normal_x: [f32; 4],
+    pub normal_y: [f32; 4],
+    pub normal_z: [f32; 4],
+    pub glass: GlassRecord,
+    pub form: u32,
+    pub flags: u32,
+    pub first_plane: u32,
+    pub plane_count: u32,
+    pub hidden: u32,
+    pub first_corner: u32,
+    pub corner_count: u32,
+    pub first_op: u32,
+    pub op_count: u32,
+    pub r0: f32,
+    pub r1: f32,
+    pub length: f32,
+    pub map_first: u32,
+    pub map_pad: u32,
+    pub map_min: [u32; 2],
+    pub map_size: [u32; 2],
+    pub pad: [u32; 2],
+}
+
+/// How a texture is sampled and where its levels lie on the pages.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct TextureInfo {
+    pub wrap_u: u32,
+    pub wrap_v: u32,
+    pub filter_bits: u32,
+    pub srgb: u32,
+    pub level_count: u32,
+    pub pad: [u32; 3],
+    /// x, y, page, and width with the height in the upper half.
+    pub levels: [[u32; 4]; 16],
+}
+
+/// Words of a lens set on the device.
+pub fn set_words(lenses: usize) -> u32 {
+    lenses.div_ceil(32).max(1) as u32
+}
+
+/// The words of a set.
+pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
+    (0..words as usize).map(|i| set.word(i))
+}
+
+/// All words a set can have, for uniforms.
+pub fn all_words(set: &LensSet) -> [u32; 8] {
+    std::array::from_fn(|i| set.word(i))
+}
+
+pub fn extended(v: glam::DVec3) -> [f32; 4] {
+    v.as_vec3().extend(0.0).to_array()
+}

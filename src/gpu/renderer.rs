@@ -1,0 +1,431 @@
+//! The long-lived renderer of one scene on one device, and the frames that it encodes.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+
+use super::bindings::{self, Layouts};
+use super::draws::{self, Draw};
+use super::frame::{self, FrameShape, Sample};
+use super::lens_data::LensData;
+use super::pipelines::Pipelines;
+use super::records::{FrameRecord, set_words};
+use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
+use super::tiles::{DISPATCH_WIDTH, Tiles};
+use super::upload::{SceneData, check_size};
+use super::{Engine, Error, RenderOptions, Window, aov};
+use crate::plan::{LightRecord, Plan};
+use crate::scene::Scene;
+
+/// Draws plans over one scene. Built once; a frame uploads the plan and nothing of the scene.
+///
+/// It borrows device, queue, encoder and target, and never submits, polls or owns a surface.
+#[derive(Debug)]
+pub struct Renderer {
+    layouts: Layouts,
+    target_format: wgpu::TextureFormat,
+    scene: SceneData,
+    /// By the number of words of a lens set.
+    pipelines: BTreeMap<u32, Arc<Pipelines>>,
+    targets: Option<Arc<Targets>>,
+    /// The most fragments that lists have needed so far.
+    needed_fragments: u64,
+}
+
+/// What a host can learn about a frame after it has submitted it.
+#[derive(Debug)]
+pub struct Encoded {
+    /// For each sample the fragments that its lists needed (u32); more than `fragment_capacity` means that the frame
+    /// lacks some and must be drawn again after [`Renderer::reserve_fragments`].
+    pub needed_fragments: wgpu::Buffer,
+    pub fragment_capacity: u64,
+}
+
+/// A frame ready to be encoded, stage by stage.
+#[derive(Debug)]
+pub struct Job {
+    pub samples: Vec<Sample>,
+    pub window: Window,
+    pub needed_fragments: wgpu::Buffer,
+    pub fragment_capacity: u64,
+    /// What lies at the pixel centres, when asked for.
+    pub maps: Option<wgpu::Buffer>,
+    pub words: u32,
+    engine: Engine,
+    passes: u32,
+    active_tiles: u32,
+    record_stride: u32,
+    draws: Vec<Draw>,
+    positions: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    pipelines: Arc<Pipelines>,
+    targets: Arc<Targets>,
+    groups: Groups,
+}
+
+#[derive(Debug)]
+struct Groups {
+    scene: wgpu::BindGroup,
+    plan: wgpu::BindGroup,
+    layers: wgpu::BindGroup,
+    visibility: wgpu::BindGroup,
+    resolve: wgpu::BindGroup,
+    maps: Option<wgpu::BindGroup>,
+    finish: wgpu::BindGroup,
+}
+
+impl Renderer {
+    /// Uploads a scene. `target_format`: of the views that pictures are drawn into; 8-bit, sRGB or not.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        target_format: wgpu::TextureFormat,
+    ) -> Result<Self, Error> {
+        let layouts = Layouts::new(device);
+        let scene = SceneData::new(device, queue, &layouts.scene, scene)?;
+        Ok(Self {
+            layouts,
+            target_format,
+            scene,
+            pipelines: BTreeMap::new(),
+            targets: None,
+            needed_fragments: 0,
+        })
+    }
+
+    /// Encodes a whole picture of a plan into `target`, which is as large as the plan's view.
+    pub fn render(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        scene: &Scene,
+        plan: &Plan,
+        options: RenderOptions,
+    ) -> Result<Encoded, Error> {
+        let job = self.prepare(device, scene, plan, Window::whole(&plan.view), options)?;
+        for sample in &job.samples {
+            job.encode_layers(encoder, sample);
+            job.encode_visibility(encoder, sample);
+            job.encode_resolve(encoder, sample);
+        }
+        job.encode_finish(encoder, target);
+        Ok(Encoded { needed_fragments: job.needed_fragments, fragment_capacity: job.fragment_capacity })
+    }
+
+    /// Makes room for at least so many listed fragments from the next frame on.
+    pub fn reserve_fragments(&mut self, count: u64) {
+        self.needed_fragments = self.needed_fragments.max(count);
+    }
+
+    /// Uploads a plan and checks that its frame fits the device.
+    pub(super) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+        options: RenderOptions,
+    ) -> Result<Job, Error> {
+        let words = set_words(plan.lenses.len());
+        let tiles = Tiles::new(plan, &window, words);
+        let fragments = self.needed_fragments.max(first_guess(plan, &window));
+        let targets = self.targets(device, &window, tiles.layer_words, fragments)?;
+        let fragment_capacity = targets.fragments.size() / FRAGMENT_BYTES;
+        let samples = frame::samples(plan, options.aovs);
+        let passes = frame::passes(options.engine, &tiles);
+        let record_stride = record_stride(device);
+        let shape = FrameShape {
+            plan,
+            window,
+            tiles: &tiles,
+            fragment_capacity: fragment_capacity.min(u64::from(u32::MAX)) as u32,
+            target_is_srgb: self.target_format.is_srgb(),
+        };
+        let frames = frame_bytes(&shape, &samples, passes, record_stride);
+        let needed_fragments = work_buffer(device, "fragment counters", 4 * samples.len() as u64)?;
+        let maps = options
+            .aovs
+            .then(|| work_buffer(device, "maps of pixel centres", aov::bytes(&window, words)))
+            .transpose()?;
+        let plan_group = self.plan_group(device, scene, plan, &tiles, words, &frames)?;
+        let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
+        Ok(Job {
+            samples,
+            window,
+            needed_fragments,
+            fragment_capacity,
+            maps,
+            words,
+            engine: options.engine,
+            passes,
+            active_tiles: tiles.active,
+            record_stride,
+            draws: draws::draws(scene, plan, &self.scene),
+            positions: self.scene.positions.clone(),
+            indices: self.scene.indices.clone(),
+            pipelines: self.pipelines(device, words),
+            targets,
+            groups,
+        })
+    }
+
+    fn pipelines(&mut self, device: &wgpu::Device, words: u32) -> Arc<Pipelines> {
+        let build = || Arc::new(Pipelines::new(device, &self.layouts, words, self.target_format));
+        self.pipelines.entry(words).or_insert_with(build).clone()
+    }
+
+    fn targets(
+        &mut self,
+        device: &wgpu::Device,
+        window: &Window,
+        layer_words: u64,
+        fragments: u64,
+    ) -> Result<Arc<Targets>, Error> {
+        if let Some(targets) = self.targets.as_ref().filter(|t| t.fits(window, layer_words, fragments)) {
+            return Ok(targets.clone());
+        }
+        // The old ones first, or both would be held at once.
+        self.targets = None;
+        let targets = Arc::new(Targets::new(device, window, layer_words, fragments)?);
+        self.targets = Some(targets.clone());
+        Ok(targets)
+    }
+
+    fn plan_group(
+        &self,
+        device: &wgpu::Device,
+        scene: &Scene,
+        plan: &Plan,
+        tiles: &Tiles,
+        words: u32,
+        frames: &[u8],
+    ) -> Result<wgpu::BindGroup, Error> {
+        let lens_data = LensData::new(plan, words);
+        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| around_eye(light, plan)).collect();
+        let uniform = wgpu::BufferUsages::UNIFORM;
+        let storage = wgpu::BufferUsages::STORAGE;
+        let buffers = [
+            ("frames", frames, uniform),
+            ("items", &draws::item_bytes(scene, plan, &self.scene, words), storage),
+            ("lenses", &lens_data.lenses, storage),
+            ("lens data", bytemuck::cast_slice(&lens_data.vectors), storage),
+            ("filters", bytemuck::cast_slice(&plan.ops), storage),
+            ("lights", bytemuck::cast_slice(&lights), storage),
+            ("tiles", bytemuck::cast_slice(&tiles.words), storage),
+        ]
+        .map(|(label, bytes, usage)| plan_buffer(device, label, bytes, usage));
+        let [frames, items, lenses, vectors, ops, lights, tiles] = buffers;
+        let record = wgpu::BufferBinding {
+            buffer: &frames?,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<FrameRecord>() as u64),
+        };
+        Ok(bindings::group(
+            device,
+            "plan",
+            &self.layouts.plan,
+            &[
+                wgpu::BindingResource::Buffer(record),
+                items?.as_entire_binding(),
+                lenses?.as_entire_binding(),
+                vectors?.as_entire_binding(),
+                ops?.as_entire_binding(),
+                lights?.as_entire_binding(),
+                tiles?.as_entire_binding(),
+            ],
+        ))
+    }
+
+    fn groups(
+        &self,
+        device: &wgpu::Device,
+        plan: wgpu::BindGroup,
+        targets: &Targets,
+        needed: &wgpu::Buffer,
+        maps: Option<&wgpu::Buffer>,
+    ) -> Groups {
+        let layers = || targets.layers.as_entire_binding();
+        let heads = || targets.heads.as_entire_binding();
+        let fragments = || targets.fragments.as_entire_binding();
+        let accumulated = || targets.accumulated.as_entire_binding();
+        let resolve = |output| {
+            let ids = wgpu::BindingResource::TextureView(&targets.ids);
+            bindings::group(device, "resolve", &self.layouts.resolve, &[layers(), heads(), fragments(), ids, output])
+        };
+        Groups {
+            scene: self.scene.bind_group.clone(),
+            plan,
+            layers: bindings::group(device, "layers", &self.layouts.layers, &[layers()]),
+            visibility: bindings::group(
+                device,
+                "visibility",
+                &self.layouts.visibility,
+                &[layers(), heads(), fragments(), needed.as_entire_binding()],
+            ),
+            resolve: resolve(accumulated()),
+            maps: maps.map(|maps| resolve(maps.as_entire_binding())),
+            finish: bindings::group(device, "finish", &self.layouts.finish, &[accumulated()]),
+        }
+    }
+}
+
+impl Job {
+    fn offset(&self, sample: &Sample, layer: u32) -> u32 {
+        (sample.index * self.passes + layer) * self.record_stride
+    }
+
+    /// Cuts the rays of the pixels that lenses touch into layers.
+    pub fn encode_layers(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+        if self.active_tiles == 0 {
+            return;
+        }
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
+        pass.set_pipeline(&self.pipelines.layers);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, &self.groups.layers, &[]);
+        let width = self.active_tiles.min(DISPATCH_WIDTH);
+        pass.dispatch_workgroups(width, self.active_tiles.div_ceil(DISPATCH_WIDTH), 1);
+    }
+
+    /// Draws the scene: once, or once for each layer, farthest first.
+    pub fn encode_visibility(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+        encoder.clear_buffer(&self.targets.heads, 0, None);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("visibility"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.targets.ids,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.targets.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(2, &self.groups.visibility, &[]);
+        pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for layer in (0..self.passes).rev() {
+            pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
+            for draw in &self.draws {
+                self.encode_draw(&mut pass, draw);
+            }
+        }
+    }
+
+    fn encode_draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) {
+        let pipelines = match self.engine {
+            Engine::Fused if draw.plain => &self.pipelines.plain,
+            Engine::Fused => &self.pipelines.fused,
+            Engine::Peel => &self.pipelines.peel,
+        };
+        pass.set_pipeline(pipelines.get(draw.culling));
+        let range = draw.range;
+        let indices = range.first_index..range.first_index + range.index_count;
+        pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
+    }
+
+    /// Composites each pixel's fragments; writes the maps where this is the sample for them.
+    pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+        if sample.colors {
+            self.encode_pixels(encoder, sample, &self.pipelines.resolve, &self.groups.resolve);
+        }
+        if let (true, Some(group)) = (sample.maps, &self.groups.maps) {
+            self.encode_pixels(encoder, sample, &self.pipelines.aov, group);
+        }
+    }
+
+    fn encode_pixels(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        sample: &Sample,
+        pipeline: &wgpu::ComputePipeline,
+        group: &wgpu::BindGroup,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, group, &[]);
+        let [width, height] = self.window.size;
+        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+    }
+
+    /// Puts the mean of the samples over the background, into a target as large as the window.
+    pub fn encode_finish(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("finish"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: target,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+            })],
+            depth_stencil_attachment: None,
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&self.pipelines.finish);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[0]);
+        pass.set_bind_group(2, &self.groups.finish, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+/// Fragments to make room for at first: two a pixel where something may be translucent.
+fn first_guess(plan: &Plan, window: &Window) -> u64 {
+    let pixels = window.pixels();
+    if plan.items.iter().any(|item| item.translucent) {
+        return 2 * pixels;
+    }
+    let lenses = plan.lenses.iter().filter(|lens| lens.translucent);
+    (2 * lenses.map(|lens| window.local(&lens.rect).area()).sum::<u64>()).clamp(64, 4 * pixels.max(16))
+}
+
+/// Bytes from one uniform record to the next.
+fn record_stride(device: &wgpu::Device) -> u32 {
+    (size_of::<FrameRecord>() as u32).next_multiple_of(device.limits().min_uniform_buffer_offset_alignment)
+}
+
+fn frame_bytes(shape: &FrameShape, samples: &[Sample], passes: u32, stride: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for sample in samples {
+        for layer in 0..passes {
+            bytes.extend_from_slice(bytemuck::bytes_of(&shape.record(sample, layer)));
+            bytes.resize(bytes.len().next_multiple_of(stride as usize), 0);
+        }
+    }
+    bytes
+}
+
+/// A light placed relative to the eye, as everything on the device.
+fn around_eye(light: &LightRecord, plan: &Plan) -> LightRecord {
+    let [x, y, z, w] = light.position;
+    let offset = glam::Vec3::new(x, y, z).as_dvec3() - plan.view.eye * f64::from(w);
+    LightRecord { position: offset.as_vec3().extend(w).to_array(), ..*light }
+}
+
+/// A buffer of the plan, never smaller than any record.
+fn plan_buffer(
+    device: &wgpu::Device,
+    label: &str,
+    bytes: &[u8],
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, Error> {
+    check_size(device, &format!("the plan's {label}"), bytes.len() as u64)?;
+    let mut contents = bytes.to_vec();
+    contents.resize(contents.len().max(1024), 0);
+    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents: &contents, usage }))
+}

@@ -1,0 +1,67 @@
+//! Puts the shader modules together from their files.
+
+/// A shader module: what one pipeline or a few of them run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Module {
+    Layers,
+    Visibility,
+    Resolve,
+    Aov,
+    Finish,
+}
+
+impl Module {
+    pub const ALL: [Module; 5] = [Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Finish];
+
+    /// How labels and messages call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Module::Layers => "layers",
+            Module::Visibility => "visibility",
+            Module::Resolve => "resolve",
+            Module::Aov => "aov",
+            Module::Finish => "finish",
+        }
+    }
+
+    fn parts(self) -> &'static [&'static str] {
+        match self {
+            Module::Layers => &[SET, LENS, LAYERS],
+            Module::Visibility => &[VISIBILITY, SET, LAYER_LOOKUP, GEOMETRY],
+            Module::Resolve => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, LENS, GLASS, FRAGMENTS, RESOLVE],
+            Module::Aov => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, FRAGMENTS, AOV],
+            Module::Finish => &[FINISH],
+        }
+    }
+}
+
+const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
+const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
+const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
+const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
+const LENS: &str = include_str!("../../shaders/gpu/lens.wgsl");
+const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
+const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
+const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");
+const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
+const GLASS: &str = include_str!("../../shaders/gpu/glass.wgsl");
+const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
+const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
+const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
+const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
+
+/// The whole WGSL of a module for lens sets of so many 32-bit words.
+pub fn source(module: Module, words: u32) -> String {
+    // Extensions are enabled ahead of everything else.
+    let enable = match module {
+        Module::Visibility => "enable primitive_index;\n",
+        _ => "",
+    };
+    let mut text = format!("{enable}const WORDS: u32 = {words}u;\n");
+    text += crate::appearance::WGSL;
+    text += COMMON;
+    for part in module.parts() {
+        text += part;
+    }
+    text
+}

@@ -1,0 +1,80 @@
+//! Which lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
+
+use super::Window;
+use crate::plan::Plan;
+
+/// Side of a tile in pixels; `TILE` of the shaders.
+pub const TILE: u32 = 16;
+/// Workgroups in a row of the layer pass; `DISPATCH_WIDTH` of the shaders.
+pub const DISPATCH_WIDTH: u32 = 1024;
+
+/// The tiles of a window as the shaders read them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tiles {
+    /// Four words a tile (first word of its layers, words a pixel, first lens, lenses), the numbers of the tiles
+    /// that lenses touch, and the lists of lenses.
+    pub words: Vec<u32>,
+    /// Tiles that lenses touch.
+    pub active: u32,
+    /// Words that the layers of all pixels of those tiles need.
+    pub layer_words: u64,
+    /// The most lenses on one tile.
+    pub most_lenses: u32,
+}
+
+impl Tiles {
+    /// A pixel of a tile with n lenses has at most 2n + 1 layers, so storage is settled here and nothing can overflow.
+    pub fn new(plan: &Plan, window: &Window, set_words: u32) -> Self {
+        let columns = window.size[0].div_ceil(TILE);
+        let rows = window.size[1].div_ceil(TILE);
+        let mut lists: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
+        for (rank, lens) in (0u32..).zip(&plan.lenses) {
+            let rect = window.local(&lens.rect);
+            if rect.is_empty() {
+                continue;
+            }
+            for y in rect.min[1] / TILE..rect.max[1].div_ceil(TILE) {
+                for x in rect.min[0] / TILE..rect.max[0].div_ceil(TILE) {
+                    lists[(y * columns + x) as usize].push(rank);
+                }
+            }
+        }
+        Self::from_lists(&lists, set_words)
+    }
+
+    fn from_lists(lists: &[Vec<u32>], set_words: u32) -> Self {
+        let active: Vec<u32> = (0u32..).zip(lists).filter(|(_, list)| !list.is_empty()).map(|(tile, _)| tile).collect();
+        let mut words = Vec::new();
+        let mut layer_words = 0u64;
+        let mut next_lens = (4 * lists.len() + active.len()) as u32;
+        for list in lists {
+            let count = list.len() as u32;
+            let stride = if count == 0 { 0 } else { 1 + (2 * count + 1) * (1 + set_words) };
+            words.extend([layer_words as u32, stride, next_lens, count]);
+            layer_words += u64::from(stride) * u64::from(TILE * TILE);
+            next_lens += count;
+        }
+        words.extend(&active);
+        words.extend(lists.iter().flatten());
+        let most_lenses = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
+        Self { words, active: active.len() as u32, layer_words, most_lenses }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn storage_grows_with_the_tiles_that_lenses_touch() {
+        let none = Tiles::from_lists(&[vec![], vec![]], 1);
+        assert_eq!((none.active, none.layer_words), (0, 0));
+        let two = Tiles::from_lists(&[vec![], vec![0, 5], vec![3]], 2);
+        assert_eq!(two.active, 2);
+        let (of_two, of_one) = (1 + 5 * 3, 1 + 3 * 3);
+        assert_eq!(two.layer_words, 256 * (of_two + of_one));
+        assert_eq!(two.words[4..8], [0, 16, 14, 2]);
+        assert_eq!(two.words[8..12], [256 * 16, 10, 16, 1]);
+        assert_eq!(two.words[12..], [1, 2, 0, 5, 3]);
+    }
+}
