@@ -98,11 +98,7 @@ impl Atlas {
 fn create(device: &wgpu::Device, shelves: &Shelves) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some("texture pages"),
-        size: wgpu::Extent3d {
-            width: shelves.size[0],
-            height: shelves.size[1],
-            depth_or_array_layers: shelves.pages,
-        },
+        size: wgpu::Extent3d { width: shelves.size[0], height: shelves.size[1], depth_or_array_layers: shelves.pages },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,

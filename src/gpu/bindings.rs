@@ -45,12 +45,7 @@ impl Layouts {
     }
 }
 
-fn layout(
-    device: &wgpu::Device,
-    label: &str,
-    visibility: wgpu::ShaderStages,
-    kinds: &[Kind],
-) -> wgpu::BindGroupLayout {
+fn layout(device: &wgpu::Device, label: &str, visibility: wgpu::ShaderStages, kinds: &[Kind]) -> wgpu::BindGroupLayout {
     let entries: Vec<wgpu::BindGroupLayoutEntry> = (0u32..)
         .zip(kinds)
         .map(|(binding, kind)| wgpu::BindGroupLayoutEntry { binding, visibility, ty: binding_type(*kind), count: None })
@@ -64,11 +59,8 @@ fn binding_type(kind: Kind) -> wgpu::BindingType {
         has_dynamic_offset: false,
         min_binding_size: None,
     };
-    let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension,
-        multisampled: false,
-    };
+    let texture =
+        |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
     match kind {
         Kind::Read => storage(true),
         Kind::ReadWrite => storage(false),

@@ -97,7 +97,8 @@ fn record(scene: &Scene, plan: &Plan, data: &SceneData, item: &Item) -> ItemReco
         material: item.material as u32,
         node: item.node as u32 + 1,
         first_triangle: item.first_triangle,
-        flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 } | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
+        flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 }
+            | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
         first_index: range.first_index,
         base_vertex: range.base_vertex,
         normals: range.normals,

@@ -42,11 +42,8 @@ impl AffineRay {
     fn in_space(&self, local: &DAffine3, perspective: bool) -> Self {
         let point = |p| local.transform_point3(p);
         let vector = |v| local.transform_vector3(v);
-        let (fixed, base) = if perspective {
-            (point(self.fixed), vector(self.base))
-        } else {
-            (vector(self.fixed), point(self.base))
-        };
+        let (fixed, base) =
+            if perspective { (point(self.fixed), vector(self.base)) } else { (vector(self.fixed), point(self.base)) };
         Self { fixed, base, dx: vector(self.dx), dy: vector(self.dy) }
     }
 

@@ -85,14 +85,7 @@ impl Renderer {
     ) -> Result<Self, Error> {
         let layouts = Layouts::new(device);
         let scene = SceneData::new(device, queue, &layouts.scene, scene)?;
-        Ok(Self {
-            layouts,
-            target_format,
-            scene,
-            pipelines: BTreeMap::new(),
-            targets: None,
-            needed_fragments: 0,
-        })
+        Ok(Self { layouts, target_format, scene, pipelines: BTreeMap::new(), targets: None, needed_fragments: 0 })
     }
 
     /// Encodes a whole picture of a plan into `target`, which is as large as the plan's view.
@@ -282,7 +275,8 @@ impl Job {
         if self.active_tiles == 0 {
             return;
         }
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
         pass.set_pipeline(&self.pipelines.layers);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
@@ -300,7 +294,10 @@ impl Job {
                 view: &self.targets.ids,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.targets.depth,
@@ -352,7 +349,8 @@ impl Job {
         pipeline: &wgpu::ComputePipeline,
         group: &wgpu::BindGroup,
     ) {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
@@ -369,7 +367,10 @@ impl Job {
                 view: target,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
             })],
             depth_stencil_attachment: None,
             timestamp_writes: None,
