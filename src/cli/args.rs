@@ -63,9 +63,9 @@ pub struct RenderArgs {
     /// What renders: the GPU, the CPU, or the GPU where there is a real one
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
-    /// How the GPU composes
-    #[arg(long, value_enum, default_value_t = EngineChoice::Fused)]
-    pub engine: EngineChoice,
+    /// How the GPU composes; left out: fused
+    #[arg(long, value_enum)]
+    pub engine: Option<EngineChoice>,
     /// Also write a map: region, depth, normal, node or layers (repeatable)
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_aov)]
     pub aov: Vec<(Aov, PathBuf)>,

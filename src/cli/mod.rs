@@ -1,6 +1,7 @@
 //! The program's subcommands; what they print is made by plain functions of the data they show.
 
 mod args;
+mod backend;
 mod check;
 mod explain;
 mod filters;
@@ -9,6 +10,7 @@ mod init;
 mod render;
 mod report;
 mod schema;
+mod stages;
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;

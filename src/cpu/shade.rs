@@ -42,9 +42,9 @@ struct Corners<'a> {
 }
 
 impl Corners<'_> {
-    fn interpolated<T: Copy>(&self, values: &[T], weights: Vec3) -> T
+    fn interpolated<T>(&self, values: &[T], weights: Vec3) -> T
     where
-        T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
+        T: Copy + std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
     {
         let [a, b, c] = self.indices.map(|i| values[i]);
         a * weights.x + b * weights.y + c * weights.z

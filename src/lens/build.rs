@@ -177,9 +177,9 @@ fn polygon_normal(corners: &[DVec3]) -> Result<DVec3, String> {
     if off > 1e-4 * size {
         return Err(format!("its corners are not in one plane: one is {off:.4} away from it"));
     }
+    let turn = |i: usize| (next(i) - corners[i]).cross(next((i + 1) % count) - next(i)).dot(normal);
     for i in 0..count {
-        let turn = (next(i) - corners[i]).cross(next((i + 1) % count) - next(i)).dot(normal);
-        if turn < -1e-9 * size * size {
+        if turn(i) < -1e-9 * size * size {
             return Err(format!("its corners do not go round a convex polygon (look at corner {})", (i + 1) % count));
         }
     }
