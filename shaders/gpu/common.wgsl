@@ -91,10 +91,12 @@ const FORM_SPHERE: u32 = 1u;
 const FORM_CONE: u32 = 2u;
 const FORM_CAPSULE: u32 = 3u;
 const FORM_HALF_SPACES: u32 = 4u;
-const FORM_DEPTH_MAP: u32 = 5u;
 
 const LENS_FLAT: u32 = 1u;
 const LENS_GLASS: u32 = 2u;
+// Its crossings come from a depth map.
+const LENS_DEPTH_MAP: u32 = 4u;
+const LENS_HOLDS_EYE: u32 = 8u;
 
 // Twin of `records::LensRecord`, and the lens's mask.
 struct Lens {
@@ -123,7 +125,7 @@ struct Lens {
     r0: f32,
     r1: f32,
     length: f32,
-    // Where its depth map starts in `depth_maps`, and the pixels of the window that it covers.
+    // Where its depth map starts in `layers`, and the pixels of the window that it covers.
     map_first: u32,
     map_pad: u32,
     map_min: vec2u,

@@ -7,6 +7,7 @@ mod aov;
 mod atlas;
 mod bindings;
 mod caps;
+mod depth_maps;
 mod draws;
 mod error;
 mod frame;

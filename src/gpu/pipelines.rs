@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::bindings::Layouts;
+use super::depth_maps::FaceVertex;
 use super::draws::Culling;
 use super::{Module, source};
 
@@ -56,6 +57,7 @@ impl PipelineStore {
 #[derive(Debug)]
 pub struct Pipelines {
     words: u32,
+    depth_map: OnceLock<wgpu::RenderPipeline>,
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::ComputePipeline>,
     aov: OnceLock<wgpu::ComputePipeline>,
@@ -68,6 +70,7 @@ impl Pipelines {
     fn new(words: u32) -> Self {
         Self {
             words,
+            depth_map: OnceLock::new(),
             layers: OnceLock::new(),
             resolve: OnceLock::new(),
             aov: OnceLock::new(),
@@ -75,6 +78,14 @@ impl Pipelines {
             visibility: OnceLock::new(),
             draws: Mutex::default(),
         }
+    }
+
+    pub fn depth_map(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        let build = || {
+            let module = compile(&store.device, Module::DepthMap, self.words);
+            depth_map_pipeline(&store.device, &module, &pipeline_layout(store, &store.layouts.layers))
+        };
+        self.depth_map.get_or_init(build).clone()
     }
 
     pub fn layers(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
@@ -196,6 +207,43 @@ fn draw_pipeline(
             entry_point: Some(entry),
             compilation_options: Default::default(),
             targets: &[Some(ID_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn depth_map_pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32];
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("depth map"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("face_vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: size_of::<FaceVertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &attributes,
+            })],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("face_fragment"),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: ID_FORMAT,
+                blend: None,
+                write_mask: wgpu::ColorWrites::empty(),
+            })],
         }),
         multiview_mask: None,
         cache: None,

@@ -1,10 +1,12 @@
 //! The long-lived renderer of one scene on one device, and the frames that it encodes.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::bindings;
+use super::depth_maps::DepthMaps;
 use super::draws::{self, Draw};
 use super::frame::{self, FrameShape, Sample};
 use super::lens_data::LensData;
@@ -54,10 +56,21 @@ pub struct Job {
     draws: Vec<(Draw, wgpu::RenderPipeline)>,
     positions: wgpu::Buffer,
     indices: wgpu::Buffer,
+    faces: Option<Faces>,
     compute: ComputeSteps,
     finish: wgpu::RenderPipeline,
     targets: Arc<Targets>,
     groups: Groups,
+}
+
+/// The faces of lenses that are drawn into depth maps.
+#[derive(Debug)]
+struct Faces {
+    vertices: wgpu::Buffer,
+    count: u32,
+    pipeline: wgpu::RenderPipeline,
+    /// Bytes of the maps in the buffer of the layers.
+    bytes: Range<u64>,
 }
 
 /// What is not drawn but computed.
@@ -138,8 +151,9 @@ impl Renderer {
     ) -> Result<Job, Error> {
         let words = set_words(plan.lenses.len());
         let tiles = Tiles::new(plan, &window, words);
+        let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
         let fragments = self.needed_fragments.max(first_guess(plan, &window));
-        let targets = self.targets(device, &window, tiles.layer_words, fragments)?;
+        let targets = self.targets(device, &window, depth_maps.end_word, fragments)?;
         let fragment_capacity = targets.fragments.size() / FRAGMENT_BYTES;
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
@@ -157,7 +171,7 @@ impl Renderer {
             .aovs
             .then(|| work_buffer(device, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
-        let plan_group = self.plan_group(device, scene, plan, &tiles, words, &frames)?;
+        let plan_group = self.plan_group(device, scene, plan, &tiles, &depth_maps, &frames)?;
         let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
         let pipelines = self.store.get(words);
         Ok(Job {
@@ -173,6 +187,9 @@ impl Renderer {
             draws: self.draws(scene, plan, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
+            faces: (!depth_maps.vertices.is_empty())
+                .then(|| self.faces(device, &depth_maps, &pipelines))
+                .transpose()?,
             compute: ComputeSteps {
                 layers: pipelines.layers(&self.store),
                 resolve: pipelines.resolve(&self.store),
@@ -203,6 +220,16 @@ impl Renderer {
             .collect()
     }
 
+    fn faces(&self, device: &wgpu::Device, maps: &DepthMaps, pipelines: &Pipelines) -> Result<Faces, Error> {
+        let bytes = bytemuck::cast_slice(&maps.vertices);
+        Ok(Faces {
+            vertices: plan_buffer(device, "faces of lenses", bytes, wgpu::BufferUsages::VERTEX)?,
+            count: maps.vertices.len() as u32,
+            pipeline: pipelines.depth_map(&self.store),
+            bytes: 4 * maps.first_word..4 * maps.end_word,
+        })
+    }
+
     fn targets(
         &mut self,
         device: &wgpu::Device,
@@ -226,10 +253,11 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         tiles: &Tiles,
-        words: u32,
+        depth_maps: &DepthMaps,
         frames: &[u8],
     ) -> Result<wgpu::BindGroup, Error> {
-        let lens_data = LensData::new(plan, words);
+        let words = set_words(plan.lenses.len());
+        let lens_data = LensData::new(plan, words, depth_maps);
         let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| around_eye(light, plan)).collect();
         let uniform = wgpu::BufferUsages::UNIFORM;
         let storage = wgpu::BufferUsages::STORAGE;
@@ -313,6 +341,9 @@ impl Job {
         if self.active_tiles == 0 {
             return;
         }
+        if let Some(faces) = &self.faces {
+            self.encode_depth_maps(encoder, sample, faces);
+        }
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
         pass.set_pipeline(&self.compute.layers);
@@ -323,29 +354,22 @@ impl Job {
         pass.dispatch_workgroups(width, self.active_tiles.div_ceil(DISPATCH_WIDTH), 1);
     }
 
+    fn encode_depth_maps(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, faces: &Faces) {
+        encoder.clear_buffer(&self.targets.layers, faces.bytes.start, Some(faces.bytes.end - faces.bytes.start));
+        // What a pass draws into is masked; the visibility pass clears it.
+        let mut pass = begin_drawing(encoder, "depth maps", &self.targets.ids, None);
+        pass.set_pipeline(&faces.pipeline);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, &self.groups.layers, &[]);
+        pass.set_vertex_buffer(0, faces.vertices.slice(..));
+        pass.draw(0..faces.count, 0..1);
+    }
+
     /// Draws the scene: once, or once for each layer, farthest first.
     pub fn encode_visibility(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
         encoder.clear_buffer(&self.targets.heads, 0, None);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("visibility"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.targets.ids,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.targets.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
+        let mut pass = begin_drawing(encoder, "visibility", &self.targets.ids, Some(&self.targets.depth));
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(2, &self.groups.visibility, &[]);
         pass.set_vertex_buffer(0, self.positions.slice(..));
@@ -390,28 +414,40 @@ impl Job {
 
     /// Puts the mean of the samples over the background, into a target as large as the window.
     pub fn encode_finish(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("finish"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: target,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: None,
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
+        let mut pass = begin_drawing(encoder, "finish", target, None);
         pass.set_pipeline(&self.finish);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[0]);
         pass.set_bind_group(2, &self.groups.finish, &[]);
         pass.draw(0..3, 0..1);
     }
+}
+
+/// A pass that starts with cleared targets.
+fn begin_drawing<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    color: &wgpu::TextureView,
+    depth: Option<&wgpu::TextureView>,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: color,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+        })],
+        // Reverse-Z: 0 is infinitely far.
+        depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
 }
 
 /// Fragments to make room for at first: two a pixel where something may be translucent.
