@@ -166,22 +166,6 @@ fn united(a: Span, b: Span) -> Span {
     return Span(min(a.entry, b.entry), max(a.exit, b.exit), 0u, 0u, true);
 }
 
-// Where a ray crosses a plane of a lens: parameter and rate; leaves the half-space where the rate is positive.
-struct PlaneCrossing {
-    t: f32,
-    rate: f32,
-    distance: f32,
-}
-
-fn plane_crossing(rank: u32, face: u32, at: vec2f) -> PlaneCrossing {
-    let k = lens_data[lenses[rank].first_plane + 2u * face];
-    let moving = k.y + k.z * at.x + k.w * at.y;
-    let distance = select(moving, k.x, frame.perspective != 0u);
-    let rate = select(k.x, moving, frame.perspective != 0u);
-    let t = clamp(-distance / select(rate, 1e-30, rate == 0.0), -FAR_AWAY, FAR_AWAY);
-    return PlaneCrossing(t, rate, distance);
-}
-
 fn half_space_span(rank: u32, at: vec2f) -> Span {
     var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
     if (lenses[rank].flags & LENS_DEPTH_MAP) != 0u {

@@ -12,6 +12,7 @@ mod draws;
 mod error;
 mod frame;
 mod headless;
+mod job;
 mod lens_data;
 mod pipelines;
 mod readback;

@@ -1,6 +1,5 @@
 //! The long-lived renderer of one scene on one device, and the frames that it encodes.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -9,12 +8,13 @@ use super::bindings;
 use super::depth_maps::DepthMaps;
 use super::draws::{self, Draw};
 use super::frame::{self, FrameShape, Sample};
+use super::job::{ComputeSteps, Faces, Groups, Job};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::records::{FrameRecord, set_words};
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
-use super::tiles::{DISPATCH_WIDTH, Tiles};
-use super::upload::{SceneData, check_size};
+use super::tiles::Tiles;
+use super::upload::{SceneData, check_size, largest_buffer};
 use super::{Engine, Error, RenderOptions, Window, aov};
 use crate::plan::{LightRecord, Plan};
 use crate::scene::Scene;
@@ -29,6 +29,8 @@ pub struct Renderer {
     targets: Option<Arc<Targets>>,
     /// The most fragments that lists have needed so far.
     needed_fragments: u64,
+    /// Bytes.
+    largest_buffer: u64,
 }
 
 /// What a host can learn about a frame after it has submitted it.
@@ -38,59 +40,6 @@ pub struct Encoded {
     /// lacks some and must be drawn again after [`Renderer::reserve_fragments`].
     pub needed_fragments: wgpu::Buffer,
     pub fragment_capacity: u64,
-}
-
-/// A frame ready to be encoded, stage by stage.
-#[derive(Debug)]
-pub struct Job {
-    pub samples: Vec<Sample>,
-    pub window: Window,
-    pub needed_fragments: wgpu::Buffer,
-    pub fragment_capacity: u64,
-    /// What lies at the pixel centres, when asked for.
-    pub maps: Option<wgpu::Buffer>,
-    pub words: u32,
-    passes: u32,
-    active_tiles: u32,
-    record_stride: u32,
-    draws: Vec<(Draw, wgpu::RenderPipeline)>,
-    positions: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    faces: Option<Faces>,
-    compute: ComputeSteps,
-    finish: wgpu::RenderPipeline,
-    targets: Arc<Targets>,
-    groups: Groups,
-}
-
-/// The faces of lenses that are drawn into depth maps.
-#[derive(Debug)]
-struct Faces {
-    vertices: wgpu::Buffer,
-    count: u32,
-    pipeline: wgpu::RenderPipeline,
-    /// Bytes of the maps in the buffer of the layers.
-    bytes: Range<u64>,
-}
-
-/// What is not drawn but computed.
-#[derive(Debug)]
-struct ComputeSteps {
-    layers: wgpu::ComputePipeline,
-    resolve: wgpu::ComputePipeline,
-    /// When maps are asked for.
-    aov: Option<wgpu::ComputePipeline>,
-}
-
-#[derive(Debug)]
-struct Groups {
-    scene: wgpu::BindGroup,
-    plan: wgpu::BindGroup,
-    layers: wgpu::BindGroup,
-    visibility: wgpu::BindGroup,
-    resolve: wgpu::BindGroup,
-    maps: Option<wgpu::BindGroup>,
-    finish: wgpu::BindGroup,
 }
 
 impl Renderer {
@@ -112,7 +61,8 @@ impl Renderer {
         store: Arc<PipelineStore>,
     ) -> Result<Self, Error> {
         let scene = SceneData::new(device, queue, &store.layouts.scene, scene)?;
-        Ok(Self { store, scene, targets: None, needed_fragments: 0 })
+        let largest_buffer = largest_buffer(device);
+        Ok(Self { store, scene, targets: None, needed_fragments: 0, largest_buffer })
     }
 
     /// Encodes a whole picture of a plan into `target`, which is as large as the plan's view.
@@ -135,9 +85,25 @@ impl Renderer {
         Ok(Encoded { needed_fragments: job.needed_fragments, fragment_capacity: job.fragment_capacity })
     }
 
+    /// Allows no buffer of a frame to be larger than so many bytes, to leave memory to others; never more than the
+    /// device allows.
+    pub fn limit_buffers(&mut self, bytes: u64) {
+        self.largest_buffer = self.largest_buffer.min(bytes);
+    }
+
+    /// Bytes that one buffer of a frame may have.
+    pub fn largest_buffer(&self) -> u64 {
+        self.largest_buffer
+    }
+
     /// Makes room for at least so many listed fragments from the next frame on.
     pub fn reserve_fragments(&mut self, count: u64) {
         self.needed_fragments = self.needed_fragments.max(count);
+    }
+
+    /// Listed fragments that the next frame has room for at least.
+    pub fn reserved_fragments(&self) -> u64 {
+        self.needed_fragments
     }
 
     /// Uploads a plan and checks that its frame fits the device.
@@ -166,10 +132,10 @@ impl Renderer {
             target_is_srgb: self.store.target.is_srgb(),
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
-        let needed_fragments = work_buffer(device, "fragment counters", 4 * samples.len() as u64)?;
+        let needed_fragments = work_buffer(device, self.largest_buffer, "fragment counters", 4 * samples.len() as u64)?;
         let maps = options
             .aovs
-            .then(|| work_buffer(device, "maps of pixel centres", aov::bytes(&window, words)))
+            .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
         let plan_group = self.plan_group(device, scene, plan, &tiles, &depth_maps, &frames)?;
         let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
@@ -242,7 +208,7 @@ impl Renderer {
         }
         // The old ones first, or both would be held at once.
         self.targets = None;
-        let targets = Arc::new(Targets::new(device, window, layer_words, fragments)?);
+        let targets = Arc::new(Targets::new(device, self.largest_buffer, window, layer_words, fragments)?);
         self.targets = Some(targets.clone());
         Ok(targets)
     }
@@ -331,125 +297,6 @@ impl Renderer {
     }
 }
 
-impl Job {
-    fn offset(&self, sample: &Sample, layer: u32) -> u32 {
-        (sample.index * self.passes + layer) * self.record_stride
-    }
-
-    /// Cuts the rays of the pixels that lenses touch into layers.
-    pub fn encode_layers(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        if self.active_tiles == 0 {
-            return;
-        }
-        if let Some(faces) = &self.faces {
-            self.encode_depth_maps(encoder, sample, faces);
-        }
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
-        pass.set_pipeline(&self.compute.layers);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-        pass.set_bind_group(2, &self.groups.layers, &[]);
-        let width = self.active_tiles.min(DISPATCH_WIDTH);
-        pass.dispatch_workgroups(width, self.active_tiles.div_ceil(DISPATCH_WIDTH), 1);
-    }
-
-    fn encode_depth_maps(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, faces: &Faces) {
-        encoder.clear_buffer(&self.targets.layers, faces.bytes.start, Some(faces.bytes.end - faces.bytes.start));
-        // What a pass draws into is masked; the visibility pass clears it.
-        let mut pass = begin_drawing(encoder, "depth maps", &self.targets.ids, None);
-        pass.set_pipeline(&faces.pipeline);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-        pass.set_bind_group(2, &self.groups.layers, &[]);
-        pass.set_vertex_buffer(0, faces.vertices.slice(..));
-        pass.draw(0..faces.count, 0..1);
-    }
-
-    /// Draws the scene: once, or once for each layer, farthest first.
-    pub fn encode_visibility(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        encoder.clear_buffer(&self.targets.heads, 0, None);
-        let mut pass = begin_drawing(encoder, "visibility", &self.targets.ids, Some(&self.targets.depth));
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(2, &self.groups.visibility, &[]);
-        pass.set_vertex_buffer(0, self.positions.slice(..));
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for layer in (0..self.passes).rev() {
-            pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
-            for (draw, pipeline) in &self.draws {
-                pass.set_pipeline(pipeline);
-                let range = draw.range;
-                let indices = range.first_index..range.first_index + range.index_count;
-                pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
-            }
-        }
-    }
-
-    /// Composites each pixel's fragments; writes the maps where this is the sample for them.
-    pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        if sample.colors {
-            self.encode_pixels(encoder, sample, &self.compute.resolve, &self.groups.resolve);
-        }
-        if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
-            self.encode_pixels(encoder, sample, pipeline, group);
-        }
-    }
-
-    fn encode_pixels(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        sample: &Sample,
-        pipeline: &wgpu::ComputePipeline,
-        group: &wgpu::BindGroup,
-    ) {
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-        pass.set_bind_group(2, group, &[]);
-        let [width, height] = self.window.size;
-        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
-    }
-
-    /// Puts the mean of the samples over the background, into a target as large as the window.
-    pub fn encode_finish(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) {
-        let mut pass = begin_drawing(encoder, "finish", target, None);
-        pass.set_pipeline(&self.finish);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[0]);
-        pass.set_bind_group(2, &self.groups.finish, &[]);
-        pass.draw(0..3, 0..1);
-    }
-}
-
-/// A pass that starts with cleared targets.
-fn begin_drawing<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    color: &wgpu::TextureView,
-    depth: Option<&wgpu::TextureView>,
-) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: color,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
-        })],
-        // Reverse-Z: 0 is infinitely far.
-        depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
-            view,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-            stencil_ops: None,
-        }),
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    })
-}
-
 /// Fragments to make room for at first: two a pixel where something may be translucent.
 fn first_guess(plan: &Plan, window: &Window) -> u64 {
     let pixels = window.pixels();
@@ -490,7 +337,7 @@ fn plan_buffer(
     bytes: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
-    check_size(device, &format!("the plan's {label}"), bytes.len() as u64)?;
+    check_size(largest_buffer(device), &format!("the plan's {label}"), bytes.len() as u64)?;
     let mut contents = bytes.to_vec();
     contents.resize(contents.len().max(1024), 0);
     Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents: &contents, usage }))
