@@ -1,11 +1,14 @@
 //! The items of a plan as records and draw calls.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::Window;
 use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, words_of};
 use super::upload::{Range, SceneData};
+use crate::lens::PixelRect;
 use crate::plan::{Item, Plan};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
+use crate::view::View;
 
 /// Which faces of an item are left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,21 +26,57 @@ pub struct Draw {
     pub item: u32,
     pub range: Range,
     pub culling: Culling,
+    /// Pixels of the window outside which nothing of it is seen.
+    pub rect: PixelRect,
     /// No fragment of it can be removed, translucent, or beyond near and far: it needs no fragment logic.
     pub plain: bool,
 }
 
-/// The draws of a plan in the order that decides ties.
-pub fn draws(scene: &Scene, plan: &Plan, data: &SceneData) -> Vec<Draw> {
+/// The draws of what a window may show of a plan, in the order that decides ties.
+pub fn draws(scene: &Scene, plan: &Plan, window: &Window, data: &SceneData) -> Vec<Draw> {
     (0u32..)
         .zip(&plan.items)
         .map(|(number, item)| Draw {
             item: number,
             range: data.range(item.model, item.mesh, item.primitive),
             culling: culling(scene, plan, item),
+            rect: window.local(&seen_rect(plan, item)),
             plain: is_plain(plan, item),
         })
+        .filter(|draw| !draw.rect.is_empty())
         .collect()
+}
+
+/// Pixels of the whole picture outside which an item is not seen: its bounds and, for an alternate, the lenses that
+/// show it.
+fn seen_rect(plan: &Plan, item: &Item) -> PixelRect {
+    let bounds = pixel_rect(&plan.view, item.bounds.corners());
+    if !item.is_alternate() || item.shown_by.iter().any(|rank| item.object.contains(rank)) {
+        return bounds;
+    }
+    let shown = item.shown_by.iter().filter(|rank| plan.by_pixel.contains(*rank)).map(|rank| plan.lenses[rank].rect);
+    let shown = shown.filter(|rect| !rect.is_empty()).reduce(|a, b| PixelRect {
+        min: [a.min[0].min(b.min[0]), a.min[1].min(b.min[1])],
+        max: [a.max[0].max(b.max[0]), a.max[1].max(b.max[1])],
+    });
+    shown.map_or(PixelRect::EMPTY, |shown| PixelRect {
+        min: [bounds.min[0].max(shown.min[0]), bounds.min[1].max(shown.min[1])],
+        max: [bounds.max[0].min(shown.max[0]), bounds.max[1].min(shown.max[1])],
+    })
+}
+
+/// Pixels around the projection of points, one more on each side; all where one is not in front of the eye.
+fn pixel_rect(view: &View, points: [DVec3; 8]) -> PixelRect {
+    let whole = PixelRect { min: [0, 0], max: view.size };
+    let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for point in points {
+        // A point almost at the eye's plane projects to anywhere.
+        let Some(p) = view.project(point).filter(|p| p.abs().max_element() < 1e9) else { return whole };
+        (min, max) = (min.min(p - 1.0), max.max(p + 1.0));
+    }
+    let size = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1]));
+    let (min, max) = (min.floor().clamp(DVec2::ZERO, size), max.ceil().clamp(DVec2::ZERO, size));
+    PixelRect { min: [min.x as u32, min.y as u32], max: [max.x as u32, max.y as u32] }
 }
 
 fn culling(scene: &Scene, plan: &Plan, item: &Item) -> Culling {

@@ -10,6 +10,7 @@ use super::renderer::Renderer;
 use super::targets::FRAGMENT_BYTES;
 use super::{AdapterChoice, Error, RenderOptions, Window, aov, caps};
 use crate::frame::{Aovs, Frame};
+use crate::lens::LayerStart;
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -111,6 +112,28 @@ impl Headless {
             }
         }
         Ok(Frame { size, pixels: picture.pixels, aovs: picture.aovs })
+    }
+
+    /// The layers of the rays through the pixel centres of a window, row by row, as the device finds them.
+    pub fn layers(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+    ) -> Result<Vec<Vec<LayerStart>>, Error> {
+        let options = RenderOptions { aovs: true, ..RenderOptions::default() };
+        let job = renderer.prepare(&self.device, scene, plan, window, options)?;
+        let mut encoder = self.encoder();
+        for sample in job.samples.iter().filter(|sample| sample.maps) {
+            job.encode_layers(&mut encoder, sample);
+        }
+        let copy = Readback::of_buffer(&self.device, &mut encoder, &job.targets.layers);
+        self.queue.submit([encoder.finish()]);
+        let bytes = copy.bytes(&self.device)?;
+        self.check()?;
+        let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        Ok(job.tiles.decode(&words, window.size, plan.view.near))
     }
 
     #[expect(clippy::too_many_arguments, reason = "the parts of one call, handed on as they came")]

@@ -7,7 +7,8 @@ use super::Window;
 use super::draws::Draw;
 use super::frame::Sample;
 use super::targets::Targets;
-use super::tiles::DISPATCH_WIDTH;
+use super::tiles::{DISPATCH_WIDTH, Tiles};
+use crate::lens::PixelRect;
 
 /// A frame ready to be encoded, stage by stage.
 #[derive(Debug)]
@@ -20,7 +21,7 @@ pub struct Job {
     pub maps: Option<wgpu::Buffer>,
     pub words: u32,
     pub passes: u32,
-    pub active_tiles: u32,
+    pub tiles: Tiles,
     pub record_stride: u32,
     pub draws: Vec<(Draw, wgpu::RenderPipeline)>,
     pub positions: wgpu::Buffer,
@@ -69,7 +70,7 @@ impl Job {
 
     /// Cuts the rays of the pixels that lenses touch into layers.
     pub fn encode_layers(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        if self.active_tiles == 0 {
+        if self.tiles.active == 0 {
             return;
         }
         if let Some(faces) = &self.faces {
@@ -81,8 +82,8 @@ impl Job {
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, &self.groups.layers, &[]);
-        let width = self.active_tiles.min(DISPATCH_WIDTH);
-        pass.dispatch_workgroups(width, self.active_tiles.div_ceil(DISPATCH_WIDTH), 1);
+        let width = self.tiles.active.min(DISPATCH_WIDTH);
+        pass.dispatch_workgroups(width, self.tiles.active.div_ceil(DISPATCH_WIDTH), 1);
     }
 
     fn encode_depth_maps(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, faces: &Faces) {
@@ -109,6 +110,8 @@ impl Job {
             pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
             for (draw, pipeline) in &self.draws {
                 pass.set_pipeline(pipeline);
+                let PixelRect { min, max } = draw.rect;
+                pass.set_scissor_rect(min[0], min[1], max[0] - min[0], max[1] - min[1]);
                 let range = draw.range;
                 let indices = range.first_index..range.first_index + range.index_count;
                 pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);

@@ -148,9 +148,9 @@ impl Renderer {
             maps,
             words,
             passes,
-            active_tiles: tiles.active,
+            tiles,
             record_stride,
-            draws: self.draws(scene, plan, options.engine, &pipelines),
+            draws: self.draws(scene, plan, &window, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
@@ -172,6 +172,7 @@ impl Renderer {
         &self,
         scene: &Scene,
         plan: &Plan,
+        window: &Window,
         engine: Engine,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
@@ -180,7 +181,7 @@ impl Renderer {
             Engine::Fused => Program::Fused,
             Engine::Peel => Program::Peel,
         };
-        draws::draws(scene, plan, &self.scene)
+        draws::draws(scene, plan, window, &self.scene)
             .into_iter()
             .map(|draw| (draw, pipelines.draw(&self.store, program(&draw), draw.culling)))
             .collect()

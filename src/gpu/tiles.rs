@@ -1,6 +1,7 @@
 //! Which lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
 
 use super::Window;
+use crate::lens::{LayerStart, LensSet};
 use crate::plan::Plan;
 
 /// Side of a tile in pixels; `TILE` of the shaders.
@@ -40,6 +41,28 @@ impl Tiles {
             }
         }
         Self::from_lists(&lists, set_words)
+    }
+
+    /// The layers of each pixel of a window of the given width and height, read back from the device.
+    pub fn decode(&self, layers: &[u32], size: [u32; 2], near: f64) -> Vec<Vec<LayerStart>> {
+        let columns = size[0].div_ceil(TILE);
+        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
+        pixels
+            .map(|(x, y)| {
+                let tile = 4 * (y / TILE * columns + x / TILE) as usize;
+                let [first, stride, _, lenses] = [0, 1, 2, 3].map(|i| self.words[tile + i]);
+                if lenses == 0 {
+                    return vec![LayerStart { depth: near, set: LensSet::EMPTY }];
+                }
+                let at = (first + (y % TILE * TILE + x % TILE) * stride) as usize;
+                let layer_words = ((stride - 1) / (2 * lenses + 1)) as usize;
+                let layer = |words: &[u32]| LayerStart {
+                    depth: f64::from(f32::from_bits(words[0])),
+                    set: LensSet::from_words(&words[1..]),
+                };
+                layers[at + 1..].chunks_exact(layer_words).take(layers[at] as usize).map(layer).collect()
+            })
+            .collect()
     }
 
     fn from_lists(lists: &[Vec<u32>], set_words: u32) -> Self {

@@ -23,6 +23,8 @@ pub const ALL: &[(&str, Test)] = &[
     ("too_small_a_device", too_small_a_device),
     ("run_to_run", run_to_run),
     ("a_difference_is_found", a_difference_is_found),
+    ("intervals_of_random_placements", crate::intervals::random_placements),
+    ("an_interval_moved_is_found", crate::intervals::a_moved_lens_is_found),
     ("a_target_of_a_host", crate::host::a_target_of_a_host),
 ];
 

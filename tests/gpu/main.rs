@@ -6,6 +6,7 @@
 mod agree;
 mod cases;
 mod host;
+mod intervals;
 mod scene;
 
 use std::process::ExitCode;
