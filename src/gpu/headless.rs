@@ -32,9 +32,7 @@ pub struct Headless {
 /// Wall-clock seconds of each stage, summed over samples and windows.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Timings {
-    /// Upload of the scene and compilation of shaders.
-    pub setup: f64,
-    /// Upload of the plan.
+    /// Upload of the plan; the first time also compilation of shaders.
     pub prepare: f64,
     pub layers: f64,
     pub visibility: f64,
