@@ -95,16 +95,3 @@ pub fn rounded_rectangle(half: DVec2, radius: f64, z: f64, per_corner: usize) ->
     }
     points
 }
-
-/// A tube of changing radius along a polyline; its ends are closed flat.
-pub fn tube(path: &[(DVec3, f64)], count: usize, x_hint: DVec3) -> Mesh {
-    let mut loops = vec![vec![path[0].0]];
-    for (i, (center, radius)) in path.iter().enumerate() {
-        let before = path[i.saturating_sub(1)].0;
-        let after = path[(i + 1).min(path.len() - 1)].0;
-        let turn = det::frame((after - before).normalize(), x_hint);
-        loops.push(circle(*radius, 0.0, count).into_iter().map(|p| turn * p + *center).collect());
-    }
-    loops.push(vec![path[path.len() - 1].0]);
-    solid(&loops)
-}

@@ -58,8 +58,13 @@ fn file(ground: &Ground) -> Vec<u8> {
 impl Ground {
     fn new() -> Self {
         let mut heights = Heights::from_fn(SIZE, |x, y| raw(dvec2(x as f64, y as f64) / (SIZE - 1) as f64));
-        let flow = heights.rain(60_000, 11);
-        heights.smooth(0.35);
+        // Rain cuts gullies and smoothing wears their sides down, in turns.
+        let mut flow = vec![0.0; SIZE * SIZE];
+        for seed in 0..4 {
+            let passed = heights.rain(14_000, seed);
+            flow.iter_mut().zip(passed).for_each(|(sum, drops)| *sum += drops);
+            heights.smooth(0.45);
+        }
         // From grid steps to scene units.
         let step = SIDE / (SIZE - 1) as f64;
         heights.data.iter_mut().for_each(|h| *h = (*h * step * 1e5).round() / 1e5);
@@ -165,8 +170,8 @@ impl Ground {
         let bare = mix(alpine, rock, smoothstep(0.75, 1.15, slope + 0.35 * grain + 0.25 * height));
         let snow = smoothstep(0.86, 1.0, height + 0.12 * grain - 0.12 * (slope - 0.9));
         let snowed = mix(bare, paint(0xf1_f4f8), snow);
-        let stream = smoothstep(26.0, 60.0, self.flow.sample(uv * (SIZE - 1) as f64)) * (1.0 - snow);
-        let wet = mix(snowed, paint(0x5f_8f9a), 0.6 * stream);
+        let stream = smoothstep(45.0, 120.0, self.flow.sample(uv * (SIZE - 1) as f64)) * (1.0 - snow);
+        let wet = mix(snowed, paint(0x5f_8f9a), 0.5 * stream);
         let shore = 1.0 - smoothstep(0.006, 0.03, height - LAKE);
         mix(wet, paint(0xbf_ad84), 0.85 * shore)
     }
@@ -214,6 +219,6 @@ fn raw(uv: DVec2) -> f64 {
     let rise = smoothstep(0.04, 0.46, valley) * (0.42 + 0.58 * (1.0 - uv.y));
     let back = 0.55 * (1.0 - smoothstep(0.05, 0.75, uv.y));
     let height = 0.12 + 0.1 * hills + rise * (0.18 + 0.75 * massif) + back * massif * 0.8 + 0.1 * back;
-    let sunk = height - 0.16 * (1.0 - smoothstep(0.08, 0.3, basin));
+    let sunk = height - 0.24 * (1.0 - smoothstep(0.06, 0.27, basin));
     sunk * (SIZE - 1) as f64 / SIDE
 }
