@@ -34,9 +34,9 @@ fn nail_place(digit: &Digit, mesh: usize) -> Place {
     let last = digit.joints.len() - 1;
     let radius = digit.skin[last];
     let along = (digit.joints[last] - digit.joints[last - 1]).normalize();
-    let at = digit.joints[last] - along * 0.32 * radius + digit.back * 0.72 * radius;
+    let at = digit.joints[last] - along * 0.5 * radius + digit.back * 0.66 * radius;
     let place = Place::mesh(mesh).at(at.x, at.y, at.z);
-    place.turned(digit.nail_frame()).scaled(dvec3(0.78, 0.36, 1.02) * radius)
+    place.turned(digit.nail_frame()).scaled(dvec3(0.74, 0.39, 0.9) * radius)
 }
 
 fn body(digits: &[Digit]) -> Mesh {
@@ -112,7 +112,7 @@ impl Parts {
 
     fn distance(&self, p: DVec3) -> f64 {
         let group = |cones: &[RoundCone], k: f64| cones.iter().fold(9.0, |d, c| smooth_min(d, c.distance(p), k));
-        let fingers = self.fingers.iter().fold(9.0, |d, finger| smooth_min(d, group(finger, 0.15 * CM), 0.12 * CM));
+        let fingers = self.fingers.iter().fold(9.0, |d, finger| smooth_min(d, group(finger, 0.15 * CM), 0.45 * CM));
         let palm = smooth_min(group(&self.palm, 0.9 * CM), group(&self.wrist, 0.8 * CM), 2.2 * CM);
         let ridged = smooth_min(palm, group(&self.tendons, 0.1 * CM), 0.7 * CM);
         let hand = smooth_min(ridged, fingers, 0.75 * CM);

@@ -18,7 +18,7 @@ const SIZE: usize = 190;
 /// Side length in scene units.
 const SIDE: f64 = 4.0;
 const BASE: f64 = -0.55;
-const LAKE: f64 = 0.075;
+const LAKE: f64 = 0.128;
 
 /// The ground: heights in scene units, and how much water runs where.
 pub struct Ground {
@@ -41,7 +41,7 @@ fn file(ground: &Ground) -> Vec<u8> {
     let map = glb.texture("satellite", &map, Sampling::SMOOTH);
     let surface = glb.material(Look::new("ground", 0xff_ffff, 0.0, 0.9).textured(map));
     let earth = glb.material(Look::new("earth", 0x6b_5240, 0.0, 0.95));
-    let water = glb.material(Look::new("water", 0x1d_5f7e, 0.1, 0.12).blended(0.78));
+    let water = glb.material(Look::new("water", 0x17_5a80, 0.0, 0.1).blended(0.8));
     let plinth = glb.material(Look::new("plinth", 0x2b_2e33, 0.0, 0.55));
     let block = glb.mesh_of("terrain", &[(&ground.surface(), surface), (&ground.skirt(), earth)]);
     glb.node("terrain", Place::mesh(block));
@@ -67,7 +67,7 @@ impl Ground {
         }
         // From grid steps to scene units.
         let step = SIDE / (SIZE - 1) as f64;
-        heights.data.iter_mut().for_each(|h| *h = (*h * step * 1e5).round() / 1e5);
+        heights.data.iter_mut().for_each(|h| *h = deepened(*h * step));
         let mut flow = Heights { size: SIZE, data: flow };
         (0..2).for_each(|_| flow.smooth(0.6));
         Self { heights, flow }
@@ -206,6 +206,12 @@ impl Ground {
         let gravel = 1.0 - smoothstep(0.012, 0.03, height - LAKE);
         mix(cracked, paint(0xf4_efd2), gravel)
     }
+}
+
+/// Rain levels the basin; below the lake's surface the ground is drawn down again.
+fn deepened(height: f64) -> f64 {
+    let deep = if height < LAKE { LAKE - 3.2 * (LAKE - height) } else { height };
+    (deep * 1e5).round() / 1e5
 }
 
 /// The land before the rain, in grid steps: a massif behind, a valley that winds to the front, hills.
