@@ -11,7 +11,7 @@ use super::shapes::cuboid;
 use super::terrain::Ground;
 
 /// Where the village lies, in texture coordinates.
-const CENTER: DVec2 = dvec2(0.47, 0.82);
+const CENTER: DVec2 = dvec2(0.46, 0.76);
 const HOUSES: usize = 22;
 const TREES: usize = 260;
 
@@ -23,7 +23,7 @@ pub fn build(glb: &mut Glb, ground: &Ground) {
 
 /// The flattest dry spot near the wished-for centre.
 fn flattest(ground: &Ground) -> DVec2 {
-    let spots = (0..15 * 15).map(|i| CENTER + dvec2(f64::from(i % 15) - 7.0, f64::from(i / 15) - 7.0) * 0.02);
+    let spots = (0..15 * 15).map(|i| CENTER + dvec2(f64::from(i % 15) - 7.0, f64::from(i / 15) - 7.0) * 0.012);
     let cost = |uv: DVec2| {
         let around = [dvec2(0.04, 0.0), dvec2(-0.04, 0.0), dvec2(0.0, 0.04), dvec2(0.0, -0.04), DVec2::ZERO];
         around
