@@ -13,7 +13,7 @@ use super::shapes::ball;
 /// Where the forearm is cut off, in scene units.
 const CUT: f64 = -0.64;
 /// Side of the cubes of the polygonisation.
-const CELL: f64 = 0.0175;
+const CELL: f64 = 0.0225;
 
 pub fn skin() -> Vec<u8> {
     let mut glb = Glb::default();

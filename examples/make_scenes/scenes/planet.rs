@@ -20,7 +20,7 @@ pub fn planet() -> Vec<u8> {
     let moon_map = glb.texture("moon", &paint::jpeg(&paint::rgb(512, 256, moon), 88), Sampling::GLOBE);
     let white = |name, texture, roughness| Look::new(name, 0xff_ffff, 0.0, roughness).textured(texture);
     let layers = [
-        ("clouds", globe(1.025, 96, 48), white("clouds", clouds_map, 0.95).blended(1.0)),
+        ("clouds", globe(1.012, 96, 48), white("clouds", clouds_map, 0.95).blended(1.0)),
         ("crust", globe(1.0, 128, 64), white("crust", crust_map, 0.62)),
         ("mantle", globe(0.9, 96, 48), white("mantle", mantle_map, 0.8).glowing(0x38_0c02)),
         ("outer-core", globe(0.6, 80, 40), white("outer-core", core_map, 0.5).glowing(0x8a_3a08)),
@@ -87,7 +87,8 @@ fn clouds(u: f64, v: f64) -> (Paint, f64) {
     let q = warped(600, p * dvec3(1.6, 2.6, 1.6), 0.85);
     let belts = 0.16 * det::cos(9.0 * p.y + 0.6);
     let cover = fbm(640, q * 1.5, 6) + belts;
-    (paint(0xff_ffff), 0.94 * smoothstep(0.02, 0.4, cover))
+    // Few levels of alpha make the file small and are not seen.
+    (paint(0xff_ffff), (0.94 * smoothstep(0.02, 0.4, cover) * 40.0).round() / 40.0)
 }
 
 fn mantle(u: f64, v: f64) -> Paint {

@@ -14,7 +14,7 @@ use super::shapes::bevelled_box;
 use super::village;
 
 /// Samples along a side of the ground.
-const SIZE: usize = 190;
+const SIZE: usize = 176;
 /// Side length in scene units.
 const SIDE: f64 = 4.0;
 const BASE: f64 = -0.55;
@@ -41,7 +41,7 @@ fn file(ground: &Ground) -> Vec<u8> {
     let map = glb.texture("satellite", &map, Sampling::SMOOTH);
     let surface = glb.material(Look::new("ground", 0xff_ffff, 0.0, 0.9).textured(map));
     let earth = glb.material(Look::new("earth", 0x6b_5240, 0.0, 0.95));
-    let water = glb.material(Look::new("water", 0x17_5a80, 0.0, 0.1).blended(0.8));
+    let water = glb.material(Look::new("water", 0x0e_62a4, 0.0, 0.18).blended(0.8));
     let plinth = glb.material(Look::new("plinth", 0x2b_2e33, 0.0, 0.55));
     let block = glb.mesh_of("terrain", &[(&ground.surface(), surface), (&ground.skirt(), earth)]);
     glb.node("terrain", Place::mesh(block));
