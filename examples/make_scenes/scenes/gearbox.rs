@@ -53,10 +53,10 @@ pub fn gearbox() -> Vec<u8> {
 
 fn materials(glb: &mut Glb) -> Paints {
     let gears = [
-        ("gear-blue", 0x5b_8fc2, 0.75, 0.34),
-        ("gear-amber", 0xd9_a441, 0.75, 0.36),
-        ("gear-red", 0xc2_5b4a, 0.75, 0.36),
-        ("gear-teal", 0x4a_a895, 0.75, 0.36),
+        ("gear-blue", 0x5b_8fc2, 0.5, 0.34),
+        ("gear-amber", 0xd9_a441, 0.5, 0.36),
+        ("gear-red", 0xc2_5b4a, 0.5, 0.36),
+        ("gear-teal", 0x4a_a895, 0.5, 0.36),
     ];
     Paints {
         cast: glb.material(Look::new("cast-paint", 0x3f_5f73, 0.15, 0.52)),

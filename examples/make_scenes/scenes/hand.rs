@@ -12,8 +12,9 @@ use super::shapes::ball;
 
 /// Where the forearm is cut off, in scene units.
 const CUT: f64 = -0.64;
-/// Side of the cubes of the polygonisation.
-const CELL: f64 = 0.0225;
+/// Side of the cubes of the polygonisation. With this one no cube is crossed by two sheets of skin, which would make
+/// an edge of four triangles; a test watches it.
+const CELL: f64 = 0.0228;
 
 pub fn skin() -> Vec<u8> {
     let mut glb = Glb::default();
@@ -112,7 +113,7 @@ impl Parts {
 
     fn distance(&self, p: DVec3) -> f64 {
         let group = |cones: &[RoundCone], k: f64| cones.iter().fold(9.0, |d, c| smooth_min(d, c.distance(p), k));
-        let fingers = self.fingers.iter().fold(9.0, |d, finger| smooth_min(d, group(finger, 0.15 * CM), 0.45 * CM));
+        let fingers = self.fingers.iter().fold(9.0, |d, finger| smooth_min(d, group(finger, 0.15 * CM), 0.7 * CM));
         let palm = smooth_min(group(&self.palm, 0.9 * CM), group(&self.wrist, 0.8 * CM), 2.2 * CM);
         let ridged = smooth_min(palm, group(&self.tendons, 0.1 * CM), 0.7 * CM);
         let hand = smooth_min(ridged, fingers, 0.75 * CM);
