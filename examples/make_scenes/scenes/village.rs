@@ -1,5 +1,7 @@
 //! Houses, a church and trees on the terrain: a few meshes, many nodes.
 
+use std::f64::consts::TAU;
+
 use glam::{DMat3, DVec2, DVec3, dvec2, dvec3};
 
 use super::det;
@@ -52,7 +54,7 @@ fn houses(glb: &mut Glb, ground: &Ground, site: DVec2) {
     let mut tries = 0;
     while placed.len() <= HOUSES && tries < 4000 {
         tries += 1;
-        let angle = random.range(0.0, 6.28);
+        let angle = random.range(0.0, TAU);
         let uv = site + dvec2(det::cos(angle), 0.8 * det::sin(angle)) * random.range(0.025, 0.12);
         let turn = det::rotation(DVec3::Y, random.range(-0.5, 0.5) + if random.unit() < 0.4 { 1.57 } else { 0.0 });
         let free = placed.iter().all(|other| (*other - uv).length() > 0.026);
