@@ -19,11 +19,8 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     var normal = vec3f(0.0);
     var found = 0u;
     loop {
-        var pick = next_listed(pixel, last);
-        if opaque.found && is_before(opaque, pick) {
-            pick = opaque;
-        }
-        if !pick.found || !is_before(last, pick) {
+        let pick = next_fragment(pixel, opaque, last);
+        if !pick.found {
             break;
         }
         last = pick;

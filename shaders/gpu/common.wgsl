@@ -81,7 +81,8 @@ struct Item {
     colors: u32,
     uv0: u32,
     uv1: u32,
-    pad: u32,
+    // Bit i: its material has a texture in slot i.
+    slots: u32,
     masks: array<u32, 4u * WORDS>,
 }
 
@@ -90,10 +91,12 @@ const FORM_SPHERE: u32 = 1u;
 const FORM_CONE: u32 = 2u;
 const FORM_CAPSULE: u32 = 3u;
 const FORM_HALF_SPACES: u32 = 4u;
-const FORM_DEPTH_MAP: u32 = 5u;
 
 const LENS_FLAT: u32 = 1u;
 const LENS_GLASS: u32 = 2u;
+// Its crossings come from a depth map.
+const LENS_DEPTH_MAP: u32 = 4u;
+const LENS_HOLDS_EYE: u32 = 8u;
 
 // Twin of `records::LensRecord`, and the lens's mask.
 struct Lens {
@@ -122,7 +125,7 @@ struct Lens {
     r0: f32,
     r1: f32,
     length: f32,
-    // Where its depth map starts in `depth_maps`, and the pixels of the window that it covers.
+    // Where its depth map starts in `layers`, and the pixels of the window that it covers.
     map_first: u32,
     map_pad: u32,
     map_min: vec2u,
@@ -139,6 +142,14 @@ struct TextureSlot {
     matrix: vec4f,
 }
 
+const SLOT_BASE_COLOR: u32 = 0u;
+const SLOT_METALLIC_ROUGHNESS: u32 = 1u;
+const SLOT_NORMAL: u32 = 2u;
+const SLOT_OCCLUSION: u32 = 3u;
+const SLOT_EMISSIVE: u32 = 4u;
+// Not a material's: the texture of a filter.
+const SLOT_FILTER: u32 = 5u;
+
 // Twin of `scene::MaterialRecord`.
 struct Material {
     base_color: vec4f,
@@ -152,11 +163,8 @@ struct Material {
     double_sided: u32,
     unlit: u32,
     pad: u32,
-    base_color_texture: TextureSlot,
-    metallic_roughness_texture: TextureSlot,
-    normal_texture: TextureSlot,
-    occlusion_texture: TextureSlot,
-    emissive_texture: TextureSlot,
+    // By SLOT_...
+    slots: array<TextureSlot, 5>,
 }
 
 // Twin of `records::TextureInfo`.

@@ -47,6 +47,18 @@ fn next_listed(pixel: vec2u, after: Pick) -> Pick {
     return best;
 }
 
+// The nearest fragment behind `after`; the opaque one is the last.
+fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
+    let listed = next_listed(pixel, after);
+    if !opaque.found || is_before(listed, opaque) {
+        return listed;
+    }
+    if is_before(after, opaque) {
+        return opaque;
+    }
+    return nothing();
+}
+
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u) -> Fragment {
     let verdict = walk(pick.item, set_at(tile, pixel, pick.depth));
     return Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack);

@@ -5,11 +5,13 @@ struct GlassHit {
     // Twice the rank, plus one for the exit: the order of surfaces at one depth.
     key: u32,
     found: bool,
+    // The whole crossing of its lens.
+    span: Span,
 }
 
 // The next lens surface behind `after` that the eye can see.
 fn next_glass(tile: TileRecord, at: vec2f, after: GlassHit) -> GlassHit {
-    var best = GlassHit(FAR_AWAY, NONE, false);
+    var best = GlassHit(FAR_AWAY, NONE, false, no_span());
     for (var i = 0u; i < tile.lens_count; i += 1u) {
         let rank = tiles[tile.first_lens + i];
         if (lenses[rank].flags & LENS_GLASS) == 0u {
@@ -27,7 +29,7 @@ fn next_glass(tile: TileRecord, at: vec2f, after: GlassHit) -> GlassHit {
             let behind = depth > after.depth || (depth == after.depth && key > after.key);
             let nearer = depth < best.depth || (depth == best.depth && key < best.key);
             if seen && behind && nearer && depth > frame.near && depth < frame.far {
-                best = GlassHit(depth, key, true);
+                best = GlassHit(depth, key, true, span);
             }
         }
     }
@@ -37,7 +39,7 @@ fn next_glass(tile: TileRecord, at: vec2f, after: GlassHit) -> GlassHit {
 // Its colour, with its opacity in alpha.
 fn glass_color(hit: GlassHit, at: vec2f, ray: PixelRay) -> vec4f {
     let rank = hit.key / 2u;
-    let span = lens_span(rank, at);
+    let span = hit.span;
     let face = select(span.exit_face, span.entry_face, hit.key % 2u == 0u);
     let normal = surface_normal(rank, at, hit.depth, face);
     let facing = abs(dot(normal, normalize(ray.direction)));

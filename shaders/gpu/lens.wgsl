@@ -168,28 +168,47 @@ fn united(a: Span, b: Span) -> Span {
 
 fn half_space_span(rank: u32, at: vec2f) -> Span {
     var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
-    let first = lenses[rank].first_plane;
+    if (lenses[rank].flags & LENS_DEPTH_MAP) != 0u {
+        let cell = map_cell(rank, at);
+        let entry = layers[cell];
+        let exit = layers[cell + 1u];
+        let around_eye = (lenses[rank].flags & LENS_HOLDS_EYE) != 0u;
+        if exit != 0u && (entry != 0u || around_eye) {
+            span.exit = plane_crossing(rank, exit - 1u, at).t;
+            span.exit_face = exit - 1u;
+            if entry != 0u {
+                span.entry = plane_crossing(rank, entry - 1u, at).t;
+                span.entry_face = entry - 1u;
+            }
+            return span;
+        }
+        if exit == 0u && entry == 0u {
+            return no_span();
+        }
+        // A pixel between faces that rounding has torn apart: all planes are asked.
+    }
     for (var face = 0u; face < lenses[rank].plane_count; face += 1u) {
-        let k = lens_data[first + 2u * face];
-        let moving = k.y + k.z * at.x + k.w * at.y;
-        let distance = select(moving, k.x, frame.perspective != 0u);
-        let rate = select(k.x, moving, frame.perspective != 0u);
-        if rate == 0.0 {
-            if distance > 0.0 {
+        let crossing = plane_crossing(rank, face, at);
+        if crossing.rate == 0.0 {
+            if crossing.distance > 0.0 {
                 return no_span();
             }
-            continue;
-        }
-        let t = clamp(-distance / rate, -FAR_AWAY, FAR_AWAY);
-        if rate < 0.0 {
-            if t > span.entry {
-                span.entry = t;
+        } else if crossing.rate < 0.0 {
+            if crossing.t > span.entry {
+                span.entry = crossing.t;
                 span.entry_face = face;
             }
-        } else if t < span.exit {
-            span.exit = t;
+        } else if crossing.t < span.exit {
+            span.exit = crossing.t;
             span.exit_face = face;
         }
     }
     return span;
+}
+
+// The cell of a pixel in a lens's depth map: the entry face plus one, then the exit face plus one.
+fn map_cell(rank: u32, at: vec2f) -> u32 {
+    let low = lenses[rank].map_min;
+    let within = clamp(vec2u(at) - frame.window_min, low, low + lenses[rank].map_size - 1u) - low;
+    return lenses[rank].map_first + 2u * (within.y * lenses[rank].map_size.x + within.x);
 }

@@ -3,11 +3,6 @@
 // Premultiplied linear colour, summed over the samples.
 @group(2) @binding(4) var<storage, read_write> accumulated: array<vec4f>;
 
-fn glass_over(front: vec4f, hit: GlassHit, at: vec2f, ray: PixelRay) -> vec4f {
-    let color = glass_color(hit, at, ray);
-    return over(front, color.rgb, color.a);
-}
-
 fn composited(pixel: vec2u) -> vec4f {
     let ray = pixel_ray(pixel);
     let at = sample_point(pixel);
@@ -15,19 +10,15 @@ fn composited(pixel: vec2u) -> vec4f {
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
     var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var glass = next_glass(tile, at, GlassHit(-FAR_AWAY, 0u, false));
+    var last_glass = GlassHit(-FAR_AWAY, 0u, false, no_span());
     loop {
-        var pick = next_listed(pixel, last);
-        if opaque.found && is_before(opaque, pick) {
-            pick = opaque;
-        }
-        // The opaque one was the last.
-        if pick.found && !is_before(last, pick) {
-            pick = nothing();
-        }
-        while glass.found && glass.depth < pick.depth {
-            front = glass_over(front, glass, at, ray);
-            glass = next_glass(tile, at, glass);
+        let pick = next_fragment(pixel, opaque, last);
+        let glass = next_glass(tile, at, last_glass);
+        if glass.found && glass.depth < pick.depth {
+            let color = glass_color(glass, at, ray);
+            front = over(front, color.rgb, color.a);
+            last_glass = glass;
+            continue;
         }
         if !pick.found {
             break;

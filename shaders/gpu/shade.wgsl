@@ -68,19 +68,6 @@ fn slot_uv(item: u32, corners: vec3u, slot: TextureSlot) -> CornerUv {
     );
 }
 
-fn sample_on(texture: u32, uv: CornerUv, t: Triangle, weights: vec3f, ray: PixelRay) -> vec4f {
-    let footprint = uv_footprint(ray, t.a, t.b, t.c, uv.a, uv.b, uv.c, texture_size(texture));
-    return sample_texture(texture, uv.a * weights.x + uv.b * weights.y + uv.c * weights.z, footprint);
-}
-
-// A slot's texel; white where it has no texture.
-fn slot_texel(item: u32, slot: TextureSlot, t: Triangle, weights: vec3f, ray: PixelRay) -> vec4f {
-    if slot.texture == NONE {
-        return vec4f(1.0);
-    }
-    return sample_on(slot.texture, slot_uv(item, t.corners, slot), t, weights, ray);
-}
-
 fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
     let size = length(v);
     if size > 1e-30 {
@@ -89,7 +76,8 @@ fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
     return other;
 }
 
-fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view: vec3f, ray: PixelRay) -> vec3f {
+// The normal of the material, given the texel of its normal map.
+fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view: vec3f, texel: vec3f) -> vec3f {
     var normal = geometric;
     if items[item].normals != NONE {
         let n = interpolated3(items[item].normals, t.corners, weights);
@@ -100,8 +88,7 @@ fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view
         );
         normal = normalize_or(turned, geometric);
     }
-    let slot = materials[items[item].material].normal_texture;
-    if slot.texture != NONE {
+    if (items[item].slots & (1u << SLOT_NORMAL)) != 0u {
         var tangent = vec4f(0.0);
         if items[item].tangents != NONE {
             let along = interpolated4(items[item].tangents, t.corners, weights);
@@ -112,55 +99,107 @@ fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view
             );
             tangent = vec4f(normalize_or(turned, vec3f(0.0)), select(1.0, -1.0, along.w < 0.0));
         } else {
-            let uv = slot_uv(item, t.corners, slot);
+            let uv = slot_uv(item, t.corners, materials[items[item].material].slots[SLOT_NORMAL]);
             tangent = triangle_tangent(t.a, t.b, t.c, uv.a, uv.b, uv.c, normal);
         }
-        let texel = slot_texel(item, slot, t, weights, ray).xyz;
         normal = bent_normal(normal, tangent, texel, materials[items[item].material].normal_scale);
     }
     return facing_normal(normal, geometric, view);
 }
 
-// The surface as its material has it.
-fn material_surface(item: u32, t: Triangle, weights: vec3f, ray: PixelRay) -> Surface {
-    let m = items[item].material;
-    let view = -normalize(ray.direction);
-    let geometric = normalize_or(cross(t.b - t.a, t.c - t.a), vec3f(0.0));
-    var s: Surface;
-    s.position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
-    s.normal = shading_normal(item, t, weights, geometric, view, ray);
-    s.view = view;
-    s.factor = materials[m].base_color;
-    if items[item].colors != NONE {
-        s.factor *= interpolated4(items[item].colors, t.corners, weights);
-    }
-    s.texel = slot_texel(item, materials[m].base_color_texture, t, weights, ray);
-    let metal_rough = slot_texel(item, materials[m].metallic_roughness_texture, t, weights, ray);
-    s.metallic = materials[m].metallic * metal_rough.z;
-    s.roughness = materials[m].roughness * metal_rough.y;
-    s.emissive = materials[m].emissive * slot_texel(item, materials[m].emissive_texture, t, weights, ray).xyz;
-    let occlusion = slot_texel(item, materials[m].occlusion_texture, t, weights, ray).x;
-    s.occlusion = 1.0 + materials[m].occlusion_strength * (occlusion - 1.0);
-    s.alpha_mode = materials[m].alpha_mode;
-    s.alpha_cutoff = materials[m].alpha_cutoff;
-    s.opacity = 1.0;
-    s.unlit = materials[m].unlit;
-    return s;
+// One texture read at a fragment: which, where, and how many of its texels the pixel spans.
+struct Read {
+    texture: u32,
+    uv: vec2f,
+    footprint: f32,
 }
 
-// The texel of a `texture` filter; `normal` is the material's.
-fn filter_texel(op: Op, item: u32, t: Triangle, weights: vec3f, position: vec3f, normal: vec3f, ray: PixelRay) -> vec4f {
+fn read_at_corners(texture: u32, uv: CornerUv, t: Triangle, weights: vec3f, ray: PixelRay) -> Read {
+    let footprint = uv_footprint(ray, t.a, t.b, t.c, uv.a, uv.b, uv.c, texture_size(texture));
+    return Read(texture, uv.a * weights.x + uv.b * weights.y + uv.c * weights.z, footprint);
+}
+
+// The read of a `texture` filter; `normal` is the material's.
+fn filter_read(op: Op, item: u32, t: Triangle, weights: vec3f, position: vec3f, normal: vec3f, ray: PixelRay) -> Read {
     let scale = op.a.xy;
     if op.flags == UV_MESH {
         let uv = corner_uv(item, t.corners, 0u);
-        return sample_on(op.texture, CornerUv(uv.a * scale, uv.b * scale, uv.c * scale), t, weights, ray);
+        return read_at_corners(op.texture, CornerUv(uv.a * scale, uv.b * scale, uv.c * scale), t, weights, ray);
     }
     let mapped = (position - frame.texture_space.xyz) * frame.texture_space.w;
     // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
     let span = position_footprint(ray, position, normal);
     let texels = abs(scale) * texture_size(op.texture);
     let footprint = max(span.x, span.y) * frame.texture_space.w * max(texels.x, texels.y);
-    return sample_texture(op.texture, projected_uv(op.flags, mapped, normal) * scale, footprint);
+    return Read(op.texture, projected_uv(op.flags, mapped, normal) * scale, footprint);
+}
+
+// The stack's last `texture` filter, or NONE: it replaces what those before it have read.
+fn last_texture_op(stack: Set) -> u32 {
+    var found = NONE;
+    for (var w = 0u; w < WORDS; w += 1u) {
+        var rest = stack.words[w];
+        while rest != 0u {
+            let rank = w * 32u + firstTrailingBit(rest);
+            rest = rest & (rest - 1u);
+            let end = lenses[rank].first_op + lenses[rank].op_count;
+            for (var i = lenses[rank].first_op; i < end; i += 1u) {
+                if ops[i].kind == OP_TEXTURE {
+                    found = i;
+                }
+            }
+        }
+    }
+    return found;
+}
+
+// A surface as its material has it, and the texel of the stack's last `texture` filter.
+struct Textured {
+    surface: Surface,
+    filter_texel: vec4f,
+}
+
+fn textured_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> Textured {
+    let item = f.item;
+    let m = items[item].material;
+    let view = -normalize(ray.direction);
+    let geometric = normalize_or(cross(t.b - t.a, t.c - t.a), vec3f(0.0));
+    let position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
+    let op = last_texture_op(f.stack);
+    // White where there is no texture. One loop over all slots in use, so that the reading stands here once.
+    var texels = array<vec4f, 6>(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
+    var slots = items[item].slots | select(1u << SLOT_FILTER, 0u, op == NONE);
+    while slots != 0u {
+        let slot = firstTrailingBit(slots);
+        slots = slots & (slots - 1u);
+        var read: Read;
+        if slot == SLOT_FILTER {
+            let normal = shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz);
+            read = filter_read(ops[op], item, t, weights, position, normal, ray);
+        } else {
+            let uv = slot_uv(item, t.corners, materials[m].slots[slot]);
+            read = read_at_corners(materials[m].slots[slot].texture, uv, t, weights, ray);
+        }
+        texels[slot] = sample_texture(read.texture, read.uv, read.footprint);
+    }
+    var s: Surface;
+    s.position = position;
+    s.normal = shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz);
+    s.view = view;
+    s.factor = materials[m].base_color;
+    if items[item].colors != NONE {
+        s.factor *= interpolated4(items[item].colors, t.corners, weights);
+    }
+    s.texel = texels[SLOT_BASE_COLOR];
+    s.metallic = materials[m].metallic * texels[SLOT_METALLIC_ROUGHNESS].z;
+    s.roughness = materials[m].roughness * texels[SLOT_METALLIC_ROUGHNESS].y;
+    s.emissive = materials[m].emissive * texels[SLOT_EMISSIVE].xyz;
+    s.occlusion = 1.0 + materials[m].occlusion_strength * (texels[SLOT_OCCLUSION].x - 1.0);
+    s.alpha_mode = materials[m].alpha_mode;
+    s.alpha_cutoff = materials[m].alpha_cutoff;
+    s.opacity = 1.0;
+    s.unlit = materials[m].unlit;
+    return Textured(s, texels[SLOT_FILTER]);
 }
 
 // Light that a surface sends to the viewer.
@@ -179,7 +218,8 @@ fn lit(s: Surface) -> vec3f {
 fn shade(f: Fragment, ray: PixelRay) -> ShadedFragment {
     let t = fetch_triangle(f.item, f.triangle);
     let weights = surface_hit(ray, t).weights;
-    var surface = material_surface(f.item, t, weights, ray);
+    let textured = textured_surface(f, t, weights, ray);
+    var surface = textured.surface;
     let normal = surface.normal;
     // Bit s: some filter of the stack acts in stage s.
     var stages = 0u;
@@ -190,13 +230,8 @@ fn shade(f: Fragment, ray: PixelRay) -> ShadedFragment {
             rest = rest & (rest - 1u);
             let end = lenses[rank].first_op + lenses[rank].op_count;
             for (var i = lenses[rank].first_op; i < end; i += 1u) {
-                let op = ops[i];
-                var texel = vec4f(1.0);
-                if op.kind == OP_TEXTURE {
-                    texel = filter_texel(op, f.item, t, weights, surface.position, normal, ray);
-                }
-                surface = filter_surface(op, surface, texel);
-                stages |= 1u << op_stage(op.kind);
+                surface = filter_surface(ops[i], surface, textured.filter_texel);
+                stages |= 1u << op_stage(ops[i].kind);
             }
         }
     }

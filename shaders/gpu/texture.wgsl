@@ -8,11 +8,12 @@ fn texture_size(texture: u32) -> vec2f {
 // A texture's colour at `uv` in linear light, for a pixel that spans `footprint` texels of level 0.
 fn sample_texture(texture: u32, uv: vec2f, footprint: f32) -> vec4f {
     let mips = choose_mips(textures[texture].filter_bits, footprint, textures[texture].level_count);
-    let first = sample_level(texture, mips.first, uv, mips.linear != 0u);
-    if mips.mix == 0.0 {
-        return first;
+    var sum = vec4f(0.0);
+    for (var i = 0u; i < select(1u, 2u, mips.mix > 0.0); i += 1u) {
+        let share = select(mips.mix, 1.0 - mips.mix, i == 0u);
+        sum += sample_level(texture, select(mips.second, mips.first, i == 0u), uv, mips.linear != 0u) * share;
     }
-    return mix(first, sample_level(texture, mips.second, uv, mips.linear != 0u), mips.mix);
+    return sum;
 }
 
 fn sample_level(texture: u32, level: u32, uv: vec2f, linear: bool) -> vec4f {
@@ -20,23 +21,16 @@ fn sample_level(texture: u32, level: u32, uv: vec2f, linear: bool) -> vec4f {
     let size = vec2i(i32(place.w & 0xffffu), i32(place.w >> 16u));
     let wraps = vec2u(textures[texture].wrap_u, textures[texture].wrap_v);
     let at = vec2f(wrap_coordinate(uv.x, wraps.x), wrap_coordinate(uv.y, wraps.y)) * vec2f(size);
-    if !linear {
-        return texel(texture, place, size, wraps, vec2i(floor(at)));
+    let shift = select(0.0, 0.5, linear);
+    let corner = floor(at - shift);
+    let part = at - shift - corner;
+    var sum = vec4f(0.0);
+    for (var i = 0u; i < select(1u, 4u, linear); i += 1u) {
+        let step = vec2u(i & 1u, i >> 1u);
+        let shares = select(1.0 - part, part, step == vec2u(1u));
+        sum += texel(texture, place, size, wraps, vec2i(corner) + vec2i(step)) * select(1.0, shares.x * shares.y, linear);
     }
-    let corner = floor(at - 0.5);
-    let share = at - 0.5 - corner;
-    let p = vec2i(corner);
-    let top = mix(
-        texel(texture, place, size, wraps, p),
-        texel(texture, place, size, wraps, p + vec2i(1, 0)),
-        share.x,
-    );
-    let bottom = mix(
-        texel(texture, place, size, wraps, p + vec2i(0, 1)),
-        texel(texture, place, size, wraps, p + vec2i(1, 1)),
-        share.x,
-    );
-    return mix(top, bottom, share.y);
+    return sum;
 }
 
 fn texel(texture: u32, place: vec4u, size: vec2i, wraps: vec2u, p: vec2i) -> vec4f {

@@ -37,7 +37,7 @@ impl Layouts {
                 &[Read, Read, Read, Read, Read, TexturePages, TexturePages],
             ),
             plan: layout(device, "plan", everywhere, &plan),
-            layers: layout(device, "layers", compute, &[ReadWrite]),
+            layers: layout(device, "layers", compute | fragment, &[ReadWrite]),
             visibility: layout(device, "visibility", fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
             resolve: layout(device, "resolve", compute, &[Read, Read, Read, IdTexture, ReadWrite]),
             finish: layout(device, "finish", fragment, &[Read]),

@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, words_of};
 use super::upload::{Range, SceneData};
 use crate::plan::{Item, Plan};
-use crate::scene::Scene;
+use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
 
 /// Which faces of an item are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Culling {
     None,
     Back,
@@ -106,6 +106,18 @@ fn record(scene: &Scene, plan: &Plan, data: &SceneData, item: &Item) -> ItemReco
         colors: range.colors,
         uv0: range.uv[0],
         uv1: range.uv[1],
-        pad: 0,
+        slots: texture_slots(&scene.materials[item.material]),
     }
+}
+
+/// Which texture slots of a material are in use, in the order of the shaders' `SLOT_...`.
+fn texture_slots(material: &MaterialRecord) -> u32 {
+    let slots = [
+        &material.base_color_texture,
+        &material.metallic_roughness_texture,
+        &material.normal_texture,
+        &material.occlusion_texture,
+        &material.emissive_texture,
+    ];
+    (0..slots.len()).filter(|i| slots[*i].texture != NO_TEXTURE).map(|i| 1 << i).sum()
 }

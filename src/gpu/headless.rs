@@ -3,10 +3,11 @@
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
+use super::job::Job;
+use super::pipelines::PipelineStore;
 use super::readback::{Readback, row_bytes};
-use super::renderer::{Job, Renderer};
+use super::renderer::Renderer;
 use super::targets::FRAGMENT_BYTES;
-use super::upload::largest_buffer;
 use super::{AdapterChoice, Error, RenderOptions, Window, aov, caps};
 use crate::frame::{Aovs, Frame};
 use crate::plan::Plan;
@@ -20,6 +21,7 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub struct Headless {
     device: wgpu::Device,
     queue: wgpu::Queue,
+    store: Arc<PipelineStore>,
     /// What the device reported outside of any call's result.
     reported: Arc<Mutex<Option<String>>>,
     /// Which adapter this is and why it was chosen.
@@ -64,12 +66,20 @@ impl Headless {
                 slot.get_or_insert(error.to_string());
             }
         }));
-        Ok(Self { device, queue, reported, reason: choice.reason.clone() })
+        let store = Arc::new(PipelineStore::new(&device, FORMAT));
+        Ok(Self { device, queue, store, reported, reason: choice.reason.clone() })
+    }
+
+    /// The device and its queue, for work beside this.
+    pub fn parts(&self) -> (&wgpu::Device, &wgpu::Queue) {
+        (&self.device, &self.queue)
     }
 
     /// Uploads a scene for any number of renders.
     pub fn renderer(&self, scene: &Scene) -> Result<Renderer, Error> {
-        Renderer::new(&self.device, &self.queue, scene, FORMAT)
+        let renderer = Renderer::with_store(&self.device, &self.queue, scene, self.store.clone())?;
+        self.check()?;
+        Ok(renderer)
     }
 
     /// The picture of a plan, in several windows if one would outgrow the device.
@@ -124,7 +134,7 @@ impl Headless {
             if needed <= job.fragment_capacity {
                 return Ok(());
             }
-            let (bytes, allowed) = (needed * FRAGMENT_BYTES, largest_buffer(&self.device));
+            let (bytes, allowed) = (needed * FRAGMENT_BYTES, renderer.largest_buffer());
             if bytes > allowed {
                 return Err(Error::TooLarge { what: "the translucent fragments".into(), needed: bytes, allowed });
             }

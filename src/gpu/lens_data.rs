@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::depth_maps::{DepthMap, DepthMaps};
 use super::records::{self, LensRecord, extended, words_of};
 use crate::lens::{Form, Plane, Volume};
 use crate::plan::{Lens, Plan};
@@ -61,11 +62,14 @@ impl AffineRay {
 }
 
 impl LensData {
-    pub fn new(plan: &Plan, words: u32) -> Self {
+    pub fn new(plan: &Plan, words: u32, maps: &DepthMaps) -> Self {
         let mut data = Self::default();
         let ray = AffineRay::new(&plan.view);
-        for lens in &plan.lenses {
-            let record = data.record(plan, lens, &ray);
+        for (rank, lens) in plan.lenses.iter().enumerate() {
+            let mut record = data.record(plan, lens, &ray);
+            if let Some(map) = maps.of_lens(rank) {
+                set_map(&mut record, map, lens.volume.contains(plan.view.eye));
+            }
             data.lenses.extend_from_slice(bytemuck::bytes_of(&record));
             words_of(&lens.hides, words).for_each(|word| data.lenses.extend_from_slice(&word.to_le_bytes()));
             // Records start at multiples of 16 bytes.
@@ -131,4 +135,11 @@ impl LensData {
             Form::Empty => record.form = records::FORM_EMPTY,
         }
     }
+}
+
+fn set_map(record: &mut LensRecord, map: &DepthMap, holds_eye: bool) {
+    record.flags |= records::LENS_DEPTH_MAP | if holds_eye { records::LENS_HOLDS_EYE } else { 0 };
+    record.map_first = map.first as u32;
+    record.map_min = map.rect.min;
+    record.map_size = [map.rect.max[0] - map.rect.min[0], map.rect.max[1] - map.rect.min[1]];
 }

@@ -1,6 +1,10 @@
-//! Compiled pipelines for one size of lens sets.
+//! Compiled pipelines.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::bindings::Layouts;
+use super::depth_maps::FaceVertex;
 use super::draws::Culling;
 use super::{Module, source};
 
@@ -8,53 +12,126 @@ use super::{Module, source};
 pub const ID_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// The drawing pipelines of one fragment function, by culling.
-#[derive(Debug)]
-pub struct ByCulling([wgpu::RenderPipeline; 3]);
+/// Which fragment function draws an item.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Program {
+    Plain,
+    Fused,
+    Peel,
+}
 
-impl ByCulling {
-    pub fn get(&self, culling: Culling) -> &wgpu::RenderPipeline {
-        &self.0[culling as usize]
+impl Program {
+    fn entry(self) -> &'static str {
+        match self {
+            Program::Plain => "plain",
+            Program::Fused => "fused",
+            Program::Peel => "peel",
+        }
     }
 }
 
-/// Everything that is compiled; independent of scene and plan but for the number of words of a lens set.
+/// Compiles pipelines when they are first needed and keeps them: for any number of scenes on one device.
+#[derive(Debug)]
+pub struct PipelineStore {
+    pub layouts: Layouts,
+    /// Of the views that pictures are drawn into.
+    pub target: wgpu::TextureFormat,
+    device: wgpu::Device,
+    /// By the 32-bit words of a lens set.
+    by_words: Mutex<BTreeMap<u32, Arc<Pipelines>>>,
+}
+
+impl PipelineStore {
+    pub fn new(device: &wgpu::Device, target: wgpu::TextureFormat) -> Self {
+        Self { layouts: Layouts::new(device), target, device: device.clone(), by_words: Mutex::default() }
+    }
+
+    /// The pipelines for lens sets of so many words.
+    pub fn get(&self, words: u32) -> Arc<Pipelines> {
+        let mut kept = self.by_words.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.entry(words).or_insert_with(|| Arc::new(Pipelines::new(words))).clone()
+    }
+}
+
+/// Pipelines for one size of lens sets; independent of scene and plan.
 #[derive(Debug)]
 pub struct Pipelines {
-    pub layers: wgpu::ComputePipeline,
-    pub plain: ByCulling,
-    pub fused: ByCulling,
-    pub peel: ByCulling,
-    pub resolve: wgpu::ComputePipeline,
-    pub aov: wgpu::ComputePipeline,
-    pub finish: wgpu::RenderPipeline,
+    words: u32,
+    depth_map: OnceLock<wgpu::RenderPipeline>,
+    layers: OnceLock<wgpu::ComputePipeline>,
+    resolve: OnceLock<wgpu::ComputePipeline>,
+    aov: OnceLock<wgpu::ComputePipeline>,
+    finish: OnceLock<wgpu::RenderPipeline>,
+    visibility: OnceLock<wgpu::ShaderModule>,
+    draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
 }
 
 impl Pipelines {
-    /// `words`: 32-bit words of a lens set; `target`: the format that pictures are drawn into.
-    pub fn new(device: &wgpu::Device, layouts: &Layouts, words: u32, target: wgpu::TextureFormat) -> Self {
-        let compile = |module| compile(device, module, words);
-        let pipeline_layout = |work: &wgpu::BindGroupLayout| pipeline_layout(device, layouts, work);
-        let compute = |module, layout: &wgpu::BindGroupLayout, entry| {
-            compute_pipeline(device, &compile(module), &pipeline_layout(layout), entry)
-        };
-        let visibility = compile(Module::Visibility);
-        let drawing = pipeline_layout(&layouts.visibility);
-        let draw = |entry: &str| {
-            ByCulling(
-                [Culling::None, Culling::Back, Culling::BackMirrored]
-                    .map(|culling| draw_pipeline(device, &visibility, &drawing, entry, culling)),
-            )
-        };
+    fn new(words: u32) -> Self {
         Self {
-            layers: compute(Module::Layers, &layouts.layers, "find_layers"),
-            plain: draw("plain"),
-            fused: draw("fused"),
-            peel: draw("peel"),
-            resolve: compute(Module::Resolve, &layouts.resolve, "resolve"),
-            aov: compute(Module::Aov, &layouts.resolve, "aovs"),
-            finish: finish_pipeline(device, &compile(Module::Finish), &pipeline_layout(&layouts.finish), target),
+            words,
+            depth_map: OnceLock::new(),
+            layers: OnceLock::new(),
+            resolve: OnceLock::new(),
+            aov: OnceLock::new(),
+            finish: OnceLock::new(),
+            visibility: OnceLock::new(),
+            draws: Mutex::default(),
         }
+    }
+
+    pub fn depth_map(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        let build = || {
+            let module = compile(&store.device, Module::DepthMap, self.words);
+            depth_map_pipeline(&store.device, &module, &pipeline_layout(store, &store.layouts.layers))
+        };
+        self.depth_map.get_or_init(build).clone()
+    }
+
+    pub fn layers(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
+        self.compute(&self.layers, store, Module::Layers, &store.layouts.layers, "find_layers")
+    }
+
+    pub fn resolve(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
+        self.compute(&self.resolve, store, Module::Resolve, &store.layouts.resolve, "resolve")
+    }
+
+    pub fn aov(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
+        self.compute(&self.aov, store, Module::Aov, &store.layouts.resolve, "aovs")
+    }
+
+    pub fn finish(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        let build = || {
+            let module = compile(&store.device, Module::Finish, self.words);
+            let layout = pipeline_layout(store, &store.layouts.finish);
+            finish_pipeline(&store.device, &module, &layout, store.target)
+        };
+        self.finish.get_or_init(build).clone()
+    }
+
+    pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
+        let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, self.words));
+        let build = || {
+            let layout = pipeline_layout(store, &store.layouts.visibility);
+            draw_pipeline(&store.device, module, &layout, program.entry(), culling)
+        };
+        let mut kept = self.draws.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.entry((program, culling)).or_insert_with(build).clone()
+    }
+
+    fn compute(
+        &self,
+        slot: &OnceLock<wgpu::ComputePipeline>,
+        store: &PipelineStore,
+        module: Module,
+        layout: &wgpu::BindGroupLayout,
+        entry: &str,
+    ) -> wgpu::ComputePipeline {
+        let build = || {
+            let module = compile(&store.device, module, self.words);
+            compute_pipeline(&store.device, &module, &pipeline_layout(store, layout), entry)
+        };
+        slot.get_or_init(build).clone()
     }
 }
 
@@ -65,10 +142,10 @@ fn compile(device: &wgpu::Device, module: Module, words: u32) -> wgpu::ShaderMod
     })
 }
 
-fn pipeline_layout(device: &wgpu::Device, layouts: &Layouts, work: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+fn pipeline_layout(store: &PipelineStore, work: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+    store.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: None,
-        bind_group_layouts: &[Some(&layouts.scene), Some(&layouts.plan), Some(work)],
+        bind_group_layouts: &[Some(&store.layouts.scene), Some(&store.layouts.plan), Some(work)],
         immediate_size: 0,
     })
 }
@@ -130,6 +207,43 @@ fn draw_pipeline(
             entry_point: Some(entry),
             compilation_options: Default::default(),
             targets: &[Some(ID_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn depth_map_pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32];
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("depth map"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("face_vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: size_of::<FaceVertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &attributes,
+            })],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("face_fragment"),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: ID_FORMAT,
+                blend: None,
+                write_mask: wgpu::ColorWrites::empty(),
+            })],
         }),
         multiview_mask: None,
         cache: None,

@@ -15,10 +15,11 @@ pub const FORM_SPHERE: u32 = 1;
 pub const FORM_CONE: u32 = 2;
 pub const FORM_CAPSULE: u32 = 3;
 pub const FORM_HALF_SPACES: u32 = 4;
-pub const FORM_DEPTH_MAP: u32 = 5;
 
 pub const LENS_FLAT: u32 = 1;
 pub const LENS_GLASS: u32 = 2;
+pub const LENS_DEPTH_MAP: u32 = 4;
+pub const LENS_HOLDS_EYE: u32 = 8;
 
 /// One sample, or one layer of one, of a frame.
 #[repr(C)]
@@ -79,7 +80,8 @@ pub struct ItemRecord {
     pub colors: u32,
     pub uv0: u32,
     pub uv1: u32,
-    pub pad: u32,
+    /// Bit i: its material has a texture in its i-th slot.
+    pub slots: u32,
 }
 
 /// One lens; the set that it hides follows.
@@ -108,6 +110,7 @@ pub struct LensRecord {
     pub r0: f32,
     pub r1: f32,
     pub length: f32,
+    /// Where its depth map starts behind the layers, in words, and the pixels of the window that it covers.
     pub map_first: u32,
     pub map_pad: u32,
     pub map_min: [u32; 2],

@@ -1,19 +1,20 @@
 //! The long-lived renderer of one scene on one device, and the frames that it encodes.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
-use super::bindings::{self, Layouts};
+use super::bindings;
+use super::depth_maps::DepthMaps;
 use super::draws::{self, Draw};
 use super::frame::{self, FrameShape, Sample};
+use super::job::{ComputeSteps, Faces, Groups, Job};
 use super::lens_data::LensData;
-use super::pipelines::Pipelines;
+use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::records::{FrameRecord, set_words};
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
-use super::tiles::{DISPATCH_WIDTH, Tiles};
-use super::upload::{SceneData, check_size};
+use super::tiles::Tiles;
+use super::upload::{SceneData, check_size, largest_buffer};
 use super::{Engine, Error, RenderOptions, Window, aov};
 use crate::plan::{LightRecord, Plan};
 use crate::scene::Scene;
@@ -23,14 +24,13 @@ use crate::scene::Scene;
 /// It borrows device, queue, encoder and target, and never submits, polls or owns a surface.
 #[derive(Debug)]
 pub struct Renderer {
-    layouts: Layouts,
-    target_format: wgpu::TextureFormat,
+    store: Arc<PipelineStore>,
     scene: SceneData,
-    /// By the number of words of a lens set.
-    pipelines: BTreeMap<u32, Arc<Pipelines>>,
     targets: Option<Arc<Targets>>,
     /// The most fragments that lists have needed so far.
     needed_fragments: u64,
+    /// Bytes.
+    largest_buffer: u64,
 }
 
 /// What a host can learn about a frame after it has submitted it.
@@ -42,39 +42,6 @@ pub struct Encoded {
     pub fragment_capacity: u64,
 }
 
-/// A frame ready to be encoded, stage by stage.
-#[derive(Debug)]
-pub struct Job {
-    pub samples: Vec<Sample>,
-    pub window: Window,
-    pub needed_fragments: wgpu::Buffer,
-    pub fragment_capacity: u64,
-    /// What lies at the pixel centres, when asked for.
-    pub maps: Option<wgpu::Buffer>,
-    pub words: u32,
-    engine: Engine,
-    passes: u32,
-    active_tiles: u32,
-    record_stride: u32,
-    draws: Vec<Draw>,
-    positions: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    pipelines: Arc<Pipelines>,
-    targets: Arc<Targets>,
-    groups: Groups,
-}
-
-#[derive(Debug)]
-struct Groups {
-    scene: wgpu::BindGroup,
-    plan: wgpu::BindGroup,
-    layers: wgpu::BindGroup,
-    visibility: wgpu::BindGroup,
-    resolve: wgpu::BindGroup,
-    maps: Option<wgpu::BindGroup>,
-    finish: wgpu::BindGroup,
-}
-
 impl Renderer {
     /// Uploads a scene. `target_format`: of the views that pictures are drawn into; 8-bit, sRGB or not.
     pub fn new(
@@ -83,9 +50,19 @@ impl Renderer {
         scene: &Scene,
         target_format: wgpu::TextureFormat,
     ) -> Result<Self, Error> {
-        let layouts = Layouts::new(device);
-        let scene = SceneData::new(device, queue, &layouts.scene, scene)?;
-        Ok(Self { layouts, target_format, scene, pipelines: BTreeMap::new(), targets: None, needed_fragments: 0 })
+        Self::with_store(device, queue, scene, Arc::new(PipelineStore::new(device, target_format)))
+    }
+
+    /// The same with pipelines that other scenes use, too.
+    pub(super) fn with_store(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        store: Arc<PipelineStore>,
+    ) -> Result<Self, Error> {
+        let scene = SceneData::new(device, queue, &store.layouts.scene, scene)?;
+        let largest_buffer = largest_buffer(device);
+        Ok(Self { store, scene, targets: None, needed_fragments: 0, largest_buffer })
     }
 
     /// Encodes a whole picture of a plan into `target`, which is as large as the plan's view.
@@ -108,9 +85,25 @@ impl Renderer {
         Ok(Encoded { needed_fragments: job.needed_fragments, fragment_capacity: job.fragment_capacity })
     }
 
+    /// Allows no buffer of a frame to be larger than so many bytes, to leave memory to others; never more than the
+    /// device allows.
+    pub fn limit_buffers(&mut self, bytes: u64) {
+        self.largest_buffer = self.largest_buffer.min(bytes);
+    }
+
+    /// Bytes that one buffer of a frame may have.
+    pub fn largest_buffer(&self) -> u64 {
+        self.largest_buffer
+    }
+
     /// Makes room for at least so many listed fragments from the next frame on.
     pub fn reserve_fragments(&mut self, count: u64) {
         self.needed_fragments = self.needed_fragments.max(count);
+    }
+
+    /// Listed fragments that the next frame has room for at least.
+    pub fn reserved_fragments(&self) -> u64 {
+        self.needed_fragments
     }
 
     /// Uploads a plan and checks that its frame fits the device.
@@ -124,8 +117,9 @@ impl Renderer {
     ) -> Result<Job, Error> {
         let words = set_words(plan.lenses.len());
         let tiles = Tiles::new(plan, &window, words);
+        let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
         let fragments = self.needed_fragments.max(first_guess(plan, &window));
-        let targets = self.targets(device, &window, tiles.layer_words, fragments)?;
+        let targets = self.targets(device, &window, depth_maps.end_word, fragments)?;
         let fragment_capacity = targets.fragments.size() / FRAGMENT_BYTES;
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
@@ -135,16 +129,17 @@ impl Renderer {
             window,
             tiles: &tiles,
             fragment_capacity: fragment_capacity.min(u64::from(u32::MAX)) as u32,
-            target_is_srgb: self.target_format.is_srgb(),
+            target_is_srgb: self.store.target.is_srgb(),
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
-        let needed_fragments = work_buffer(device, "fragment counters", 4 * samples.len() as u64)?;
+        let needed_fragments = work_buffer(device, self.largest_buffer, "fragment counters", 4 * samples.len() as u64)?;
         let maps = options
             .aovs
-            .then(|| work_buffer(device, "maps of pixel centres", aov::bytes(&window, words)))
+            .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
-        let plan_group = self.plan_group(device, scene, plan, &tiles, words, &frames)?;
+        let plan_group = self.plan_group(device, scene, plan, &tiles, &depth_maps, &frames)?;
         let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
+        let pipelines = self.store.get(words);
         Ok(Job {
             samples,
             window,
@@ -152,22 +147,53 @@ impl Renderer {
             fragment_capacity,
             maps,
             words,
-            engine: options.engine,
             passes,
             active_tiles: tiles.active,
             record_stride,
-            draws: draws::draws(scene, plan, &self.scene),
+            draws: self.draws(scene, plan, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
-            pipelines: self.pipelines(device, words),
+            faces: (!depth_maps.vertices.is_empty())
+                .then(|| self.faces(device, &depth_maps, &pipelines))
+                .transpose()?,
+            compute: ComputeSteps {
+                layers: pipelines.layers(&self.store),
+                resolve: pipelines.resolve(&self.store),
+                aov: options.aovs.then(|| pipelines.aov(&self.store)),
+            },
+            finish: pipelines.finish(&self.store),
             targets,
             groups,
         })
     }
 
-    fn pipelines(&mut self, device: &wgpu::Device, words: u32) -> Arc<Pipelines> {
-        let build = || Arc::new(Pipelines::new(device, &self.layouts, words, self.target_format));
-        self.pipelines.entry(words).or_insert_with(build).clone()
+    /// The draws of a plan, each with the pipeline that draws it.
+    fn draws(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        engine: Engine,
+        pipelines: &Pipelines,
+    ) -> Vec<(Draw, wgpu::RenderPipeline)> {
+        let program = |draw: &Draw| match engine {
+            Engine::Fused if draw.plain => Program::Plain,
+            Engine::Fused => Program::Fused,
+            Engine::Peel => Program::Peel,
+        };
+        draws::draws(scene, plan, &self.scene)
+            .into_iter()
+            .map(|draw| (draw, pipelines.draw(&self.store, program(&draw), draw.culling)))
+            .collect()
+    }
+
+    fn faces(&self, device: &wgpu::Device, maps: &DepthMaps, pipelines: &Pipelines) -> Result<Faces, Error> {
+        let bytes = bytemuck::cast_slice(&maps.vertices);
+        Ok(Faces {
+            vertices: plan_buffer(device, "faces of lenses", bytes, wgpu::BufferUsages::VERTEX)?,
+            count: maps.vertices.len() as u32,
+            pipeline: pipelines.depth_map(&self.store),
+            bytes: 4 * maps.first_word..4 * maps.end_word,
+        })
     }
 
     fn targets(
@@ -182,7 +208,7 @@ impl Renderer {
         }
         // The old ones first, or both would be held at once.
         self.targets = None;
-        let targets = Arc::new(Targets::new(device, window, layer_words, fragments)?);
+        let targets = Arc::new(Targets::new(device, self.largest_buffer, window, layer_words, fragments)?);
         self.targets = Some(targets.clone());
         Ok(targets)
     }
@@ -193,10 +219,11 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         tiles: &Tiles,
-        words: u32,
+        depth_maps: &DepthMaps,
         frames: &[u8],
     ) -> Result<wgpu::BindGroup, Error> {
-        let lens_data = LensData::new(plan, words);
+        let words = set_words(plan.lenses.len());
+        let lens_data = LensData::new(plan, words, depth_maps);
         let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| around_eye(light, plan)).collect();
         let uniform = wgpu::BufferUsages::UNIFORM;
         let storage = wgpu::BufferUsages::STORAGE;
@@ -219,7 +246,7 @@ impl Renderer {
         Ok(bindings::group(
             device,
             "plan",
-            &self.layouts.plan,
+            &self.store.layouts.plan,
             &[
                 wgpu::BindingResource::Buffer(record),
                 items?.as_entire_binding(),
@@ -246,142 +273,27 @@ impl Renderer {
         let accumulated = || targets.accumulated.as_entire_binding();
         let resolve = |output| {
             let ids = wgpu::BindingResource::TextureView(&targets.ids);
-            bindings::group(device, "resolve", &self.layouts.resolve, &[layers(), heads(), fragments(), ids, output])
+            bindings::group(
+                device,
+                "resolve",
+                &self.store.layouts.resolve,
+                &[layers(), heads(), fragments(), ids, output],
+            )
         };
         Groups {
             scene: self.scene.bind_group.clone(),
             plan,
-            layers: bindings::group(device, "layers", &self.layouts.layers, &[layers()]),
+            layers: bindings::group(device, "layers", &self.store.layouts.layers, &[layers()]),
             visibility: bindings::group(
                 device,
                 "visibility",
-                &self.layouts.visibility,
+                &self.store.layouts.visibility,
                 &[layers(), heads(), fragments(), needed.as_entire_binding()],
             ),
             resolve: resolve(accumulated()),
             maps: maps.map(|maps| resolve(maps.as_entire_binding())),
-            finish: bindings::group(device, "finish", &self.layouts.finish, &[accumulated()]),
+            finish: bindings::group(device, "finish", &self.store.layouts.finish, &[accumulated()]),
         }
-    }
-}
-
-impl Job {
-    fn offset(&self, sample: &Sample, layer: u32) -> u32 {
-        (sample.index * self.passes + layer) * self.record_stride
-    }
-
-    /// Cuts the rays of the pixels that lenses touch into layers.
-    pub fn encode_layers(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        if self.active_tiles == 0 {
-            return;
-        }
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
-        pass.set_pipeline(&self.pipelines.layers);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-        pass.set_bind_group(2, &self.groups.layers, &[]);
-        let width = self.active_tiles.min(DISPATCH_WIDTH);
-        pass.dispatch_workgroups(width, self.active_tiles.div_ceil(DISPATCH_WIDTH), 1);
-    }
-
-    /// Draws the scene: once, or once for each layer, farthest first.
-    pub fn encode_visibility(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        encoder.clear_buffer(&self.targets.heads, 0, None);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("visibility"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.targets.ids,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.targets.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(2, &self.groups.visibility, &[]);
-        pass.set_vertex_buffer(0, self.positions.slice(..));
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for layer in (0..self.passes).rev() {
-            pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
-            for draw in &self.draws {
-                self.encode_draw(&mut pass, draw);
-            }
-        }
-    }
-
-    fn encode_draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) {
-        let pipelines = match self.engine {
-            Engine::Fused if draw.plain => &self.pipelines.plain,
-            Engine::Fused => &self.pipelines.fused,
-            Engine::Peel => &self.pipelines.peel,
-        };
-        pass.set_pipeline(pipelines.get(draw.culling));
-        let range = draw.range;
-        let indices = range.first_index..range.first_index + range.index_count;
-        pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
-    }
-
-    /// Composites each pixel's fragments; writes the maps where this is the sample for them.
-    pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        if sample.colors {
-            self.encode_pixels(encoder, sample, &self.pipelines.resolve, &self.groups.resolve);
-        }
-        if let (true, Some(group)) = (sample.maps, &self.groups.maps) {
-            self.encode_pixels(encoder, sample, &self.pipelines.aov, group);
-        }
-    }
-
-    fn encode_pixels(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        sample: &Sample,
-        pipeline: &wgpu::ComputePipeline,
-        group: &wgpu::BindGroup,
-    ) {
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-        pass.set_bind_group(2, group, &[]);
-        let [width, height] = self.window.size;
-        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
-    }
-
-    /// Puts the mean of the samples over the background, into a target as large as the window.
-    pub fn encode_finish(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("finish"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: target,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: None,
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        pass.set_pipeline(&self.pipelines.finish);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[0]);
-        pass.set_bind_group(2, &self.groups.finish, &[]);
-        pass.draw(0..3, 0..1);
     }
 }
 
@@ -425,7 +337,7 @@ fn plan_buffer(
     bytes: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
-    check_size(device, &format!("the plan's {label}"), bytes.len() as u64)?;
+    check_size(largest_buffer(device), &format!("the plan's {label}"), bytes.len() as u64)?;
     let mut contents = bytes.to_vec();
     contents.resize(contents.len().max(1024), 0);
     Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents: &contents, usage }))

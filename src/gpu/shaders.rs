@@ -3,6 +3,7 @@
 /// A shader module: what one pipeline or a few of them run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Module {
+    DepthMap,
     Layers,
     Visibility,
     Resolve,
@@ -11,11 +12,13 @@ pub enum Module {
 }
 
 impl Module {
-    pub const ALL: [Module; 5] = [Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Finish];
+    pub const ALL: [Module; 6] =
+        [Module::DepthMap, Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Finish];
 
     /// How labels and messages call it.
     pub fn name(self) -> &'static str {
         match self {
+            Module::DepthMap => "depth map",
             Module::Layers => "layers",
             Module::Visibility => "visibility",
             Module::Resolve => "resolve",
@@ -26,9 +29,10 @@ impl Module {
 
     fn parts(self) -> &'static [&'static str] {
         match self {
-            Module::Layers => &[SET, LENS, LAYERS],
+            Module::DepthMap => &[PLANE, DEPTH_MAP],
+            Module::Layers => &[SET, PLANE, LENS, LAYERS],
             Module::Visibility => &[VISIBILITY, SET, LAYER_LOOKUP, GEOMETRY],
-            Module::Resolve => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, LENS, GLASS, FRAGMENTS, RESOLVE],
+            Module::Resolve => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, PLANE, LENS, GLASS, FRAGMENTS, RESOLVE],
             Module::Aov => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, FRAGMENTS, AOV],
             Module::Finish => &[FINISH],
         }
@@ -40,6 +44,8 @@ const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
 const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
 const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
 const LENS: &str = include_str!("../../shaders/gpu/lens.wgsl");
+const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
+const DEPTH_MAP: &str = include_str!("../../shaders/gpu/depth_map.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
 const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");

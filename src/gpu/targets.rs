@@ -22,7 +22,13 @@ pub struct Targets {
 }
 
 impl Targets {
-    pub fn new(device: &wgpu::Device, window: &Window, layer_words: u64, fragments: u64) -> Result<Self, Error> {
+    pub fn new(
+        device: &wgpu::Device,
+        allowed: u64,
+        window: &Window,
+        layer_words: u64,
+        fragments: u64,
+    ) -> Result<Self, Error> {
         let limit = device.limits().max_texture_dimension_2d;
         let side = window.size[0].max(window.size[1]);
         if side > limit {
@@ -47,10 +53,10 @@ impl Targets {
             size: window.size,
             ids: texture("visibility", ID_FORMAT, attachment | wgpu::TextureUsages::TEXTURE_BINDING),
             depth: texture("depth", DEPTH_FORMAT, attachment),
-            heads: work_buffer(device, "heads of fragment lists", 4 * window.pixels())?,
-            accumulated: work_buffer(device, "summed colours", 16 * window.pixels())?,
-            layers: work_buffer(device, "layers", 4 * layer_words)?,
-            fragments: work_buffer(device, "fragments", FRAGMENT_BYTES * fragments)?,
+            heads: work_buffer(device, allowed, "heads of fragment lists", 4 * window.pixels())?,
+            accumulated: work_buffer(device, allowed, "summed colours", 16 * window.pixels())?,
+            layers: work_buffer(device, allowed, "layers", 4 * layer_words)?,
+            fragments: work_buffer(device, allowed, "fragments", FRAGMENT_BYTES * fragments)?,
         })
     }
 
@@ -62,9 +68,9 @@ impl Targets {
     }
 }
 
-/// A storage buffer that passes write and may be copied from.
-pub fn work_buffer(device: &wgpu::Device, label: &str, bytes: u64) -> Result<wgpu::Buffer, Error> {
-    check_size(device, &format!("the {label}"), bytes)?;
+/// A storage buffer that passes write and may be copied from; `allowed`: the most bytes it may have.
+pub fn work_buffer(device: &wgpu::Device, allowed: u64, label: &str, bytes: u64) -> Result<wgpu::Buffer, Error> {
+    check_size(allowed, &format!("the {label}"), bytes)?;
     Ok(device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
         size: bytes.max(64).next_multiple_of(16),

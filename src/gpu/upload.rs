@@ -124,7 +124,7 @@ fn storage_buffer(
     bytes: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
-    check_size(device, &format!("the scene's {label}"), bytes.len() as u64)?;
+    check_size(largest_buffer(device), &format!("the scene's {label}"), bytes.len() as u64)?;
     let padded;
     let contents = if bytes.len() < SMALLEST {
         padded = [bytes, &vec![0; SMALLEST - bytes.len()]].concat();
@@ -135,9 +135,8 @@ fn storage_buffer(
     Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
 }
 
-/// Fails with numbers when a storage buffer of this size cannot be bound.
-pub fn check_size(device: &wgpu::Device, what: &str, needed: u64) -> Result<(), Error> {
-    let allowed = largest_buffer(device);
+/// Fails with numbers when a buffer is larger than allowed.
+pub fn check_size(allowed: u64, what: &str, needed: u64) -> Result<(), Error> {
     if needed > allowed {
         return Err(Error::TooLarge { what: what.into(), needed, allowed });
     }

@@ -1,0 +1,182 @@
+//! A frame ready to be encoded, stage by stage.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::Window;
+use super::draws::Draw;
+use super::frame::Sample;
+use super::targets::Targets;
+use super::tiles::DISPATCH_WIDTH;
+
+/// A frame ready to be encoded, stage by stage.
+#[derive(Debug)]
+pub struct Job {
+    pub samples: Vec<Sample>,
+    pub window: Window,
+    pub needed_fragments: wgpu::Buffer,
+    pub fragment_capacity: u64,
+    /// What lies at the pixel centres, when asked for.
+    pub maps: Option<wgpu::Buffer>,
+    pub words: u32,
+    pub passes: u32,
+    pub active_tiles: u32,
+    pub record_stride: u32,
+    pub draws: Vec<(Draw, wgpu::RenderPipeline)>,
+    pub positions: wgpu::Buffer,
+    pub indices: wgpu::Buffer,
+    pub faces: Option<Faces>,
+    pub compute: ComputeSteps,
+    pub finish: wgpu::RenderPipeline,
+    pub targets: Arc<Targets>,
+    pub groups: Groups,
+}
+
+/// The faces of lenses that are drawn into depth maps.
+#[derive(Debug)]
+pub struct Faces {
+    pub vertices: wgpu::Buffer,
+    pub count: u32,
+    pub pipeline: wgpu::RenderPipeline,
+    /// Bytes of the maps in the buffer of the layers.
+    pub bytes: Range<u64>,
+}
+
+/// What is not drawn but computed.
+#[derive(Debug)]
+pub struct ComputeSteps {
+    pub layers: wgpu::ComputePipeline,
+    pub resolve: wgpu::ComputePipeline,
+    /// When maps are asked for.
+    pub aov: Option<wgpu::ComputePipeline>,
+}
+
+#[derive(Debug)]
+pub struct Groups {
+    pub scene: wgpu::BindGroup,
+    pub plan: wgpu::BindGroup,
+    pub layers: wgpu::BindGroup,
+    pub visibility: wgpu::BindGroup,
+    pub resolve: wgpu::BindGroup,
+    pub maps: Option<wgpu::BindGroup>,
+    pub finish: wgpu::BindGroup,
+}
+
+impl Job {
+    fn offset(&self, sample: &Sample, layer: u32) -> u32 {
+        (sample.index * self.passes + layer) * self.record_stride
+    }
+
+    /// Cuts the rays of the pixels that lenses touch into layers.
+    pub fn encode_layers(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+        if self.active_tiles == 0 {
+            return;
+        }
+        if let Some(faces) = &self.faces {
+            self.encode_depth_maps(encoder, sample, faces);
+        }
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
+        pass.set_pipeline(&self.compute.layers);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, &self.groups.layers, &[]);
+        let width = self.active_tiles.min(DISPATCH_WIDTH);
+        pass.dispatch_workgroups(width, self.active_tiles.div_ceil(DISPATCH_WIDTH), 1);
+    }
+
+    fn encode_depth_maps(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, faces: &Faces) {
+        encoder.clear_buffer(&self.targets.layers, faces.bytes.start, Some(faces.bytes.end - faces.bytes.start));
+        // What a pass draws into is masked; the visibility pass clears it.
+        let mut pass = begin_drawing(encoder, "depth maps", &self.targets.ids, None);
+        pass.set_pipeline(&faces.pipeline);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, &self.groups.layers, &[]);
+        pass.set_vertex_buffer(0, faces.vertices.slice(..));
+        pass.draw(0..faces.count, 0..1);
+    }
+
+    /// Draws the scene: once, or once for each layer, farthest first.
+    pub fn encode_visibility(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+        encoder.clear_buffer(&self.targets.heads, 0, None);
+        let mut pass = begin_drawing(encoder, "visibility", &self.targets.ids, Some(&self.targets.depth));
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(2, &self.groups.visibility, &[]);
+        pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for layer in (0..self.passes).rev() {
+            pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
+            for (draw, pipeline) in &self.draws {
+                pass.set_pipeline(pipeline);
+                let range = draw.range;
+                let indices = range.first_index..range.first_index + range.index_count;
+                pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
+            }
+        }
+    }
+
+    /// Composites each pixel's fragments; writes the maps where this is the sample for them.
+    pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+        if sample.colors {
+            self.encode_pixels(encoder, sample, &self.compute.resolve, &self.groups.resolve);
+        }
+        if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
+            self.encode_pixels(encoder, sample, pipeline, group);
+        }
+    }
+
+    fn encode_pixels(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        sample: &Sample,
+        pipeline: &wgpu::ComputePipeline,
+        group: &wgpu::BindGroup,
+    ) {
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, group, &[]);
+        let [width, height] = self.window.size;
+        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+    }
+
+    /// Puts the mean of the samples over the background, into a target as large as the window.
+    pub fn encode_finish(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) {
+        let mut pass = begin_drawing(encoder, "finish", target, None);
+        pass.set_pipeline(&self.finish);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[0]);
+        pass.set_bind_group(2, &self.groups.finish, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+/// A pass that starts with cleared targets.
+fn begin_drawing<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    color: &wgpu::TextureView,
+    depth: Option<&wgpu::TextureView>,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: color,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+        })],
+        // Reverse-Z: 0 is infinitely far.
+        depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}

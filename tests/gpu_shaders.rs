@@ -1,0 +1,266 @@
+//! Every assembled shader is valid, follows our own lints, and agrees with Rust about the layout of records.
+#![cfg(feature = "gpu")]
+
+use std::mem::{offset_of, size_of};
+
+use lenspeel::gpu::layout::{FrameRecord, ItemRecord, LensRecord, TextureInfo};
+use lenspeel::gpu::{Module, source};
+use lenspeel::plan::{GlassRecord, LightRecord, Op};
+use lenspeel::scene::{MaterialRecord, TextureSlot};
+use naga::{Handle, ShaderStage, Type, TypeInner};
+
+/// Words of a lens set: one lens to the most that there can be.
+const WORDS: [u32; 3] = [1, 2, 8];
+/// Twin of the limit that `caps.rs` asks for.
+const STORAGE_BUFFERS: usize = 15;
+
+fn parsed(module: Module, words: u32) -> naga::Module {
+    let text = source(module, words);
+    naga::front::wgsl::parse_str(&text)
+        .unwrap_or_else(|e| panic!("{} with {words} words: {}", module.name(), e.emit_to_string(&text)))
+}
+
+fn validated(module: Module, words: u32) -> (naga::Module, naga::valid::ModuleInfo) {
+    let parsed = parsed(module, words);
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::PRIMITIVE_INDEX);
+    let info = validator
+        .validate(&parsed)
+        .unwrap_or_else(|e| panic!("{}: {}", module.name(), e.emit_to_string(&source(module, words))));
+    (parsed, info)
+}
+
+#[test]
+fn every_module_is_valid_for_every_size_of_sets() {
+    for module in Module::ALL {
+        for words in WORDS {
+            assert!(!validated(module, words).0.entry_points.is_empty());
+        }
+    }
+}
+
+/// Browsers refuse `textureSample` where control flow is not uniform, and naga lets it pass: texels are loaded.
+fn samples_textures(module: &naga::Module) -> bool {
+    let functions = module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function));
+    functions
+        .flat_map(|f| f.expressions.iter())
+        .any(|(_, e)| matches!(e, naga::Expression::ImageSample { .. } | naga::Expression::Derivative { .. }))
+}
+
+#[test]
+fn no_module_samples_textures_or_takes_derivatives() {
+    for module in Module::ALL {
+        assert!(!samples_textures(&parsed(module, 1)), "{} must use textureLoad", module.name());
+    }
+}
+
+#[test]
+fn the_sampling_lint_finds_what_it_looks_for() {
+    let text = "@group(0) @binding(0) var t: texture_2d<f32>; @group(0) @binding(1) var s: sampler;
+        @fragment fn f(@location(0) p: vec2f) -> @location(0) vec4f { return textureSample(t, s, p); }";
+    assert!(samples_textures(&naga::front::wgsl::parse_str(text).unwrap()));
+}
+
+/// Whether a vertex entry point's position is `@invariant`: pipelines that share it then agree on depth.
+fn position_is_invariant(module: &naga::Module, entry: &naga::EntryPoint) -> bool {
+    let result = entry.function.result.as_ref().expect("a vertex function has a result");
+    let invariant = |binding: &Option<naga::Binding>| {
+        matches!(binding, Some(naga::Binding::BuiltIn(naga::BuiltIn::Position { invariant: true })))
+    };
+    match &module.types[result.ty].inner {
+        TypeInner::Struct { members, .. } => members.iter().any(|m| invariant(&m.binding)),
+        _ => invariant(&result.binding),
+    }
+}
+
+#[test]
+fn the_scene_is_drawn_at_invariant_positions() {
+    let module = parsed(Module::Visibility, 1);
+    let vertex: Vec<_> = module.entry_points.iter().filter(|e| e.stage == ShaderStage::Vertex).collect();
+    assert_eq!(vertex.len(), 1, "all pipelines share one vertex function");
+    assert!(position_is_invariant(&module, vertex[0]));
+}
+
+#[test]
+fn no_stage_binds_more_storage_buffers_than_are_asked_for() {
+    for module in Module::ALL {
+        let (module_ir, info) = validated(module, 1);
+        for (index, entry) in module_ir.entry_points.iter().enumerate() {
+            let used = module_ir
+                .global_variables
+                .iter()
+                .filter(|(_, v)| matches!(v.space, naga::AddressSpace::Storage { .. }))
+                .filter(|(handle, _)| !info.get_entry_point(index)[*handle].is_empty())
+                .count();
+            assert!(used <= STORAGE_BUFFERS, "`{}` uses {used} storage buffers", entry.name);
+        }
+    }
+}
+
+/// Name and offset of each member, and the size, of a struct in WGSL.
+fn wgsl_layout(module: &naga::Module, name: &str) -> (Vec<(String, u32)>, u32) {
+    let is_named = |(_, t): &(Handle<Type>, &Type)| t.name.as_deref() == Some(name);
+    let (_, found) = module.types.iter().find(is_named).unwrap_or_else(|| panic!("there is no struct `{name}`"));
+    let TypeInner::Struct { members, span } = &found.inner else { panic!("`{name}` is no struct") };
+    (members.iter().map(|m| (m.name.clone().unwrap_or_default(), m.offset)).collect(), *span)
+}
+
+/// Compares a record of Rust with its twin: every listed field at the same offset.
+macro_rules! same_layout {
+    ($module:expr, $wgsl:literal, $rust:ty, [$($field:ident),* $(,)?]) => {{
+        let (members, _) = wgsl_layout($module, $wgsl);
+        $(
+            let name = stringify!($field);
+            let (_, offset) = members.iter().find(|(n, _)| n == name)
+                .unwrap_or_else(|| panic!("`{}` has no `{name}` in WGSL", $wgsl));
+            assert_eq!(offset_of!($rust, $field) as u32, *offset, "`{}::{name}`", $wgsl);
+        )*
+    }};
+}
+
+#[test]
+fn records_have_the_same_layout_in_rust_and_in_wgsl() {
+    let module = parsed(Module::Resolve, 2);
+    let size = |name| wgsl_layout(&module, name).1 as usize;
+    same_layout!(
+        &module,
+        "Frame",
+        FrameRecord,
+        [
+            ray_fixed,
+            ray_base,
+            ray_dx,
+            ray_dy,
+            right,
+            up,
+            forward,
+            clip_scale,
+            clip_shift,
+            near,
+            far,
+            perspective,
+            layer,
+            window_min,
+            window_size,
+            sample,
+            sample_index,
+            samples,
+            ambient,
+            texture_space,
+            background,
+            light_count,
+            fragment_capacity,
+            active_tiles,
+            target_is_srgb,
+            by_pixel,
+            translucent
+        ]
+    );
+    assert_eq!(size("Frame"), size_of::<FrameRecord>());
+    same_layout!(
+        &module,
+        "Item",
+        ItemRecord,
+        [
+            row_x,
+            row_y,
+            row_z,
+            normal_x,
+            normal_y,
+            normal_z,
+            material,
+            node,
+            first_triangle,
+            flags,
+            first_index,
+            base_vertex,
+            normals,
+            tangents,
+            colors,
+            uv0,
+            uv1,
+            slots
+        ]
+    );
+    // Four masks of two words each follow.
+    assert_eq!(size("Item"), size_of::<ItemRecord>() + 4 * 2 * 4);
+    same_layout!(
+        &module,
+        "Lens",
+        LensRecord,
+        [
+            ray_fixed,
+            ray_base,
+            ray_dx,
+            ray_dy,
+            normal_x,
+            normal_y,
+            normal_z,
+            glass,
+            form,
+            flags,
+            first_plane,
+            plane_count,
+            hidden,
+            first_corner,
+            corner_count,
+            first_op,
+            op_count,
+            r0,
+            r1,
+            length,
+            map_first,
+            map_min,
+            map_size
+        ]
+    );
+    // One set of two words follows, then padding to 16 bytes.
+    assert_eq!(size("Lens"), (size_of::<LensRecord>() + 2 * 4).next_multiple_of(16));
+    same_layout!(&module, "TextureInfo", TextureInfo, [wrap_u, wrap_v, filter_bits, srgb, level_count, levels]);
+    assert_eq!(size("TextureInfo"), size_of::<TextureInfo>());
+}
+
+#[test]
+fn records_of_the_plan_and_the_scene_have_the_same_layout_in_wgsl() {
+    let module = parsed(Module::Resolve, 1);
+    let size = |name| wgsl_layout(&module, name).1 as usize;
+    same_layout!(&module, "Op", Op, [kind, texture, flags, a, b, c]);
+    assert_eq!(size("Op"), size_of::<Op>());
+    same_layout!(&module, "Light", LightRecord, [kind, range, cos_inner, cos_outer, position, direction, color]);
+    assert_eq!(size("Light"), size_of::<LightRecord>());
+    same_layout!(&module, "Glass", GlassRecord, [color, opacity, rim, outline]);
+    assert_eq!(size("Glass"), size_of::<GlassRecord>());
+    same_layout!(&module, "TextureSlot", TextureSlot, [texture, uv_set, offset, matrix]);
+    assert_eq!(size("TextureSlot"), size_of::<TextureSlot>());
+    same_layout!(
+        &module,
+        "Material",
+        MaterialRecord,
+        [
+            base_color,
+            emissive,
+            alpha_cutoff,
+            metallic,
+            roughness,
+            normal_scale,
+            occlusion_strength,
+            alpha_mode,
+            double_sided,
+            unlit
+        ]
+    );
+    assert_eq!(size("Material"), size_of::<MaterialRecord>());
+    // The five slots of Rust's record are one list in WGSL.
+    let (members, _) = wgsl_layout(&module, "Material");
+    let slots = members.iter().find(|(name, _)| name == "slots").expect("`Material` has slots").1 as usize;
+    let rust = [
+        offset_of!(MaterialRecord, base_color_texture),
+        offset_of!(MaterialRecord, metallic_roughness_texture),
+        offset_of!(MaterialRecord, normal_texture),
+        offset_of!(MaterialRecord, occlusion_texture),
+        offset_of!(MaterialRecord, emissive_texture),
+    ];
+    for (i, offset) in rust.into_iter().enumerate() {
+        assert_eq!(offset, slots + i * size_of::<TextureSlot>());
+    }
+}
