@@ -16,3 +16,8 @@ pub mod spec;
 pub mod view;
 
 pub use error::InputError;
+
+/// The README's example compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

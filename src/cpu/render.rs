@@ -4,7 +4,7 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::geometry::Geometry;
-use super::pixel::{PixelReport, Scratch, Tracer};
+use super::pixel::{PixelReport, Scratch, Tracer, Visible};
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame};
 use crate::lens::PixelRect;
@@ -25,7 +25,13 @@ pub struct Renderer<'a> {
 struct TileResult {
     rect: PixelRect,
     pixels: Vec<[u8; 4]>,
-    reports: Vec<PixelReport>,
+    centers: Vec<Center>,
+}
+
+/// What the AOVs keep of a pixel's centre.
+struct Center {
+    layers: u16,
+    visible: Option<Visible>,
 }
 
 impl<'a> Renderer<'a> {
@@ -54,7 +60,7 @@ impl<'a> Renderer<'a> {
                 let at = (y * size[0] + x) as usize;
                 pixels[at] = result.pixels[i];
                 if let Some(maps) = &mut maps {
-                    self.store(maps, at, &result.reports[i]);
+                    self.store(maps, at, &result.centers[i]);
                 }
             }
         }
@@ -76,7 +82,7 @@ impl<'a> Renderer<'a> {
         let ranks = self.ranks(&rect);
         let side = f64::from(self.plan.samples).sqrt().round().max(1.0) as u32;
         let offset = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
-        let mut result = TileResult { rect, pixels: Vec::new(), reports: Vec::new() };
+        let mut result = TileResult { rect, pixels: Vec::new(), centers: Vec::new() };
         for (x, y) in pixels_of(&rect) {
             let mut sum = Vec4::ZERO;
             for (i, j) in (0..side).flat_map(|j| (0..side).map(move |i| (i, j))) {
@@ -84,7 +90,8 @@ impl<'a> Renderer<'a> {
             }
             result.pixels.push(self.finish(sum / (side * side) as f32));
             if aovs {
-                result.reports.push(tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, scratch));
+                let report = tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, scratch);
+                result.centers.push(Center { layers: report.layers.count() as u16, visible: report.visible });
             }
         }
         result
@@ -103,9 +110,9 @@ impl<'a> Renderer<'a> {
         [encode(straight.x), encode(straight.y), encode(straight.z), (sum.w.clamp(0.0, 1.0) * 255.0).round() as u8]
     }
 
-    fn store(&self, maps: &mut Aovs, at: usize, report: &PixelReport) {
-        maps.layers[at] = report.layers.count() as u16;
-        let Some(visible) = &report.visible else { return };
+    fn store(&self, maps: &mut Aovs, at: usize, center: &Center) {
+        maps.layers[at] = center.layers;
+        let Some(visible) = &center.visible else { return };
         maps.sets[at] = Some(visible.fragment.set);
         maps.nodes[at] = self.plan.items[visible.fragment.item as usize].node as u16 + 1;
         maps.depth[at] = visible.fragment.depth;

@@ -36,37 +36,37 @@ const FINGERS: [Finger; 4] = [
         name: "index",
         base: [-1.45, 2.6, 0.0],
         knuckle: [-2.6, 8.9, 0.2],
-        lean: -9.0,
+        lean: -11.0,
         phalanges: [4.4, 2.6, 2.0],
         bend: [9.0, 17.0, 11.0],
-        skin: [1.1, 0.98, 0.86, 0.74, 0.6],
+        skin: [1.12, 1.04, 0.95, 0.82, 0.66],
     },
     Finger {
         name: "middle",
         base: [-0.45, 2.6, 0.1],
         knuckle: [-0.65, 9.3, 0.32],
-        lean: -1.5,
+        lean: -3.0,
         phalanges: [4.9, 3.0, 2.1],
         bend: [12.0, 21.0, 13.0],
-        skin: [1.1, 1.0, 0.88, 0.76, 0.62],
+        skin: [1.12, 1.06, 0.97, 0.84, 0.68],
     },
     Finger {
         name: "ring",
         base: [0.55, 2.5, 0.1],
         knuckle: [1.2, 8.85, 0.22],
-        lean: 5.0,
+        lean: 7.0,
         phalanges: [4.5, 2.8, 2.1],
         bend: [15.0, 25.0, 14.0],
-        skin: [1.1, 0.95, 0.83, 0.71, 0.58],
+        skin: [1.12, 1.01, 0.92, 0.79, 0.64],
     },
     Finger {
         name: "little",
         base: [1.45, 2.35, 0.0],
         knuckle: [2.85, 7.9, 0.0],
-        lean: 15.0,
+        lean: 18.0,
         phalanges: [3.6, 2.1, 1.8],
         bend: [17.0, 25.0, 14.0],
-        skin: [1.05, 0.86, 0.72, 0.62, 0.5],
+        skin: [1.05, 0.9, 0.8, 0.7, 0.56],
     },
 ];
 
@@ -99,7 +99,7 @@ fn thumb() -> Digit {
     let direction = (joints[3] - joints[2]).normalize();
     let outward = dvec3(-0.55, -0.1, 0.8);
     let back = (outward - direction * outward.dot(direction)).normalize();
-    Digit { name: "thumb", joints, skin: [1.3, 1.18, 1.02, 0.76].map(|r| r * CM).to_vec(), back }
+    Digit { name: "thumb", joints, skin: [1.3, 1.2, 1.08, 0.82].map(|r| r * CM).to_vec(), back }
 }
 
 impl Digit {

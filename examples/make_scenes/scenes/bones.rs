@@ -47,7 +47,7 @@ pub fn skeleton() -> Vec<u8> {
     }
     let wrist = glb.node("carpals", Place::default().under(root));
     for (k, (name, at, half)) in CARPALS.into_iter().enumerate() {
-        let mesh = glb.mesh(name, &pebble(k as u64, centimetres(half)), carpal);
+        let mesh = glb.mesh(name, &pebble(k as u64, centimetres(half) * 1.16), carpal);
         let at = centimetres(at);
         glb.node(name, Place::mesh(mesh).under(wrist).at(at.x, at.y, at.z));
     }

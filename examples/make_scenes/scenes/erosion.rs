@@ -12,10 +12,10 @@ pub struct Heights {
 
 /// How a drop of water works on the ground.
 const INERTIA: f64 = 0.08;
-const CAPACITY: f64 = 5.0;
+const CAPACITY: f64 = 3.0;
 const LEAST_SLOPE: f64 = 0.012;
-const DEPOSIT: f64 = 0.25;
-const ERODE: f64 = 0.28;
+const DEPOSIT: f64 = 0.15;
+const ERODE: f64 = 0.12;
 const EVAPORATE: f64 = 0.02;
 const LIFE: usize = 48;
 

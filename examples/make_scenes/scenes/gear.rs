@@ -41,7 +41,7 @@ impl Gear {
         }
         lower.push(self.outline(bevel, -half));
         lower.push(self.outline(0.0, -half + bevel));
-        let upper: Vec<Loop> = lower.iter().rev().map(|points| mirrored(points)).collect();
+        let upper: Vec<Loop> = lower.iter().rev().map(mirrored).collect();
         let bore = [half - bevel, -half + bevel].map(|z| circle(self.bore, z, 64));
         ring(&lower.into_iter().chain(upper).chain(bore).collect::<Vec<_>>()).shaded(48.0)
     }

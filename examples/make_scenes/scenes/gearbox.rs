@@ -7,7 +7,7 @@ use glam::{DMat3, DVec2, DVec3, dvec2, dvec3};
 use super::det;
 use super::gear::Gear;
 use super::glb::{Glb, Look, Place};
-use super::loft::{Loop, circle, lathe, lathe_ring, rounded_rectangle, solid};
+use super::loft::{Loop, circle, divided_rectangle, lathe, lathe_ring, solid};
 use super::mesh::Mesh;
 use super::shapes::{ball, bevelled_box, torus};
 
@@ -53,10 +53,10 @@ pub fn gearbox() -> Vec<u8> {
 
 fn materials(glb: &mut Glb) -> Paints {
     let gears = [
-        ("gear-blue", 0x5b_8fc2, 0.75, 0.34),
-        ("gear-amber", 0xd9_a441, 0.75, 0.36),
-        ("gear-red", 0xc2_5b4a, 0.75, 0.36),
-        ("gear-teal", 0x4a_a895, 0.75, 0.36),
+        ("gear-blue", 0x5b_8fc2, 0.5, 0.34),
+        ("gear-amber", 0xd9_a441, 0.5, 0.36),
+        ("gear-red", 0xc2_5b4a, 0.5, 0.36),
+        ("gear-teal", 0x4a_a895, 0.5, 0.36),
     ];
     Paints {
         cast: glb.material(Look::new("cast-paint", 0x3f_5f73, 0.15, 0.52)),
@@ -113,26 +113,37 @@ fn fittings(glb: &mut Glb, paints: &Paints, lid: usize) {
 /// The upper half of the casing: a closed solid with walls, open below, with a flange around the opening at y = 0.
 fn half_shell() -> Mesh {
     let (height, round) = (DEPTH, 0.42);
-    let level = |outset: f64, y: f64| rounded_rectangle(HALF + DVec2::splat(outset), 0.5 + outset, y, 9);
+    let level = |outset: f64, y: f64| divided_rectangle(HALF + DVec2::splat(outset), 0.5 + outset, y, 9, [16, 4]);
     let inner = |outset: f64, y: f64| level(outset - WALL, y);
-    let mut loops: Vec<Loop> = vec![vec![dvec3(0.0, 0.0, height - WALL)]];
-    // From the inner ceiling down the inner wall, around the flange, up the outer wall to the roof.
-    loops.push(inner(-round * 0.6, height - WALL));
-    loops.push(inner(-round * 0.15, height - WALL - 0.12));
-    loops.push(inner(0.0, height - WALL - 0.34));
-    loops.push(inner(0.0, 0.0));
+    let between = |count: i32| (1..count).map(move |i| f64::from(i) / f64::from(count));
+    // Flat roofs are cut into shrinking loops; the corner radius must stay positive.
+    let roof = |scale: f64, y: f64| -> Loop {
+        level(-round, y).into_iter().map(|p| dvec3(p.x * scale, p.y * scale, y)).collect()
+    };
+    let ceiling = height - WALL;
+    let mut loops: Vec<Loop> = vec![vec![dvec3(0.0, 0.0, ceiling)]];
+    // From the inner ceiling down the inner wall, around the flange, up the outer wall to the roof: the walk begins
+    // inside, so the inner faces look into the room.
+    loops.extend(between(5).map(|t| roof(t, ceiling)));
+    loops.push(inner(-round * 0.6, ceiling));
+    loops.push(inner(-round * 0.15, ceiling - 0.12));
+    let (high, low) = (ceiling - 0.34, 0.0);
+    loops.push(inner(0.0, high));
+    loops.extend(between(5).map(|t| inner(0.0, det::lerp(high, low, t))));
+    loops.push(inner(0.0, low));
     loops.push(level(FLANGE - 0.02, 0.0));
     loops.push(level(FLANGE, 0.02));
     loops.push(level(FLANGE, FLANGE_THICKNESS - 0.025));
     loops.push(level(FLANGE - 0.025, FLANGE_THICKNESS));
     loops.push(level(0.05, FLANGE_THICKNESS));
     loops.push(level(0.0, FLANGE_THICKNESS + 0.05));
+    loops.extend(between(5).map(|t| level(0.0, det::lerp(FLANGE_THICKNESS + 0.05, height - round, t))));
     for step in 0..=5 {
         let angle = PI / 2.0 * f64::from(step) / 5.0;
         loops.push(level(-round * (1.0 - det::cos(angle)), height - round * (1.0 - det::sin(angle))));
     }
+    loops.extend(between(5).map(|t| roof(1.0 - t, height)));
     loops.push(vec![dvec3(0.0, 0.0, height)]);
-    // The walk above goes inside first, so the loops' sense makes the inside face the room: as it should.
     solid(&loops).upright().shaded(42.0)
 }
 

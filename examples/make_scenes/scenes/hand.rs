@@ -12,8 +12,9 @@ use super::shapes::ball;
 
 /// Where the forearm is cut off, in scene units.
 const CUT: f64 = -0.64;
-/// Side of the cubes of the polygonisation.
-const CELL: f64 = 0.0175;
+/// Side of the cubes of the polygonisation. With this one no cube is crossed by two sheets of skin, which would make
+/// an edge of four triangles; a test watches it.
+const CELL: f64 = 0.0228;
 
 pub fn skin() -> Vec<u8> {
     let mut glb = Glb::default();
@@ -34,9 +35,9 @@ fn nail_place(digit: &Digit, mesh: usize) -> Place {
     let last = digit.joints.len() - 1;
     let radius = digit.skin[last];
     let along = (digit.joints[last] - digit.joints[last - 1]).normalize();
-    let at = digit.joints[last] - along * 0.32 * radius + digit.back * 0.72 * radius;
+    let at = digit.joints[last] - along * 0.5 * radius + digit.back * 0.66 * radius;
     let place = Place::mesh(mesh).at(at.x, at.y, at.z);
-    place.turned(digit.nail_frame()).scaled(dvec3(0.78, 0.36, 1.02) * radius)
+    place.turned(digit.nail_frame()).scaled(dvec3(0.74, 0.39, 0.9) * radius)
 }
 
 fn body(digits: &[Digit]) -> Mesh {
@@ -97,7 +98,7 @@ impl Parts {
         palm.extend([
             // The ball of the thumb, the edge of the hand, and the web between thumb and index.
             cone([-1.5, 1.7, -0.75], 1.15, [-3.6, 4.5, -1.55], 1.3),
-            cone([1.75, 1.6, -0.45], 1.2, [2.6, 5.8, -0.4], 1.2),
+            cone([1.75, 1.6, -0.45], 1.15, [2.75, 6.7, -0.4], 1.05),
             cone([-2.2, 3.4, -0.7], 0.9, [-2.7, 6.4, -0.3], 0.75),
             cone([-0.2, 2.4, -0.3], 1.2, [0.2, 6.8, -0.2], 1.1),
         ]);
@@ -112,8 +113,8 @@ impl Parts {
 
     fn distance(&self, p: DVec3) -> f64 {
         let group = |cones: &[RoundCone], k: f64| cones.iter().fold(9.0, |d, c| smooth_min(d, c.distance(p), k));
-        let fingers = self.fingers.iter().fold(9.0, |d, finger| smooth_min(d, group(finger, 0.25 * CM), 0.12 * CM));
-        let palm = smooth_min(group(&self.palm, 0.9 * CM), group(&self.wrist, 0.8 * CM), 1.5 * CM);
+        let fingers = self.fingers.iter().fold(9.0, |d, finger| smooth_min(d, group(finger, 0.15 * CM), 0.7 * CM));
+        let palm = smooth_min(group(&self.palm, 0.9 * CM), group(&self.wrist, 0.8 * CM), 2.2 * CM);
         let ridged = smooth_min(palm, group(&self.tendons, 0.1 * CM), 0.7 * CM);
         let hand = smooth_min(ridged, fingers, 0.75 * CM);
         -smooth_min(-hand, p.y - CUT, 0.5 * CM)
@@ -130,7 +131,7 @@ fn phalanges(digit: &Digit) -> Vec<RoundCone> {
     for k in first..last {
         let (a, b) = (digit.joints[k], end(k + 1));
         let middle = a.lerp(b, 0.5);
-        let slim = 0.955 * 0.5 * (digit.skin[k] + digit.skin[k + 1]);
+        let slim = 0.985 * 0.5 * (digit.skin[k] + digit.skin[k + 1]);
         cones.push(RoundCone { a, b: middle, ra: digit.skin[k], rb: slim });
         cones.push(RoundCone { a: middle, b, ra: slim, rb: digit.skin[k + 1] });
     }
@@ -144,9 +145,9 @@ fn metacarpal(digit: &Digit) -> RoundCone {
 
 /// The faint ridge of a tendon on the back of the hand, which ends in the knuckle.
 fn tendon(knuckle: DVec3) -> RoundCone {
-    let rise = DVec3::Z * 0.62 * CM;
+    let rise = DVec3::Z * 0.5 * CM;
     let wrist = dvec3(0.25 * knuckle.x, 0.22, 0.0) + rise;
-    RoundCone { a: wrist, b: knuckle + rise, ra: 0.22 * CM, rb: 0.5 * CM }
+    RoundCone { a: wrist, b: knuckle + rise, ra: 0.15 * CM, rb: 0.5 * CM }
 }
 
 fn smooth_min(a: f64, b: f64, k: f64) -> f64 {

@@ -83,28 +83,32 @@ pub fn lathe_ring(profile: &[(f64, f64)], count: usize) -> Mesh {
 
 /// A rectangle with rounded corners about the z axis. `half` is half its size.
 pub fn rounded_rectangle(half: DVec2, radius: f64, z: f64, per_corner: usize) -> Loop {
-    let corner_centers = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-    let mut points = Vec::new();
-    for (k, (sx, sy)) in corner_centers.into_iter().enumerate() {
-        for i in 0..per_corner {
-            let angle = TAU / 4.0 * (k as f64 + i as f64 / (per_corner - 1) as f64);
-            let x = sx * (half.x - radius) + radius * det::cos(angle);
-            let y = sy * (half.y - radius) + radius * det::sin(angle);
-            points.push(DVec3::new(x, y, z));
-        }
-    }
-    points
+    divided_rectangle(half, radius, z, per_corner, [1, 1])
 }
 
-/// A tube of changing radius along a polyline; its ends are closed flat.
-pub fn tube(path: &[(DVec3, f64)], count: usize, x_hint: DVec3) -> Mesh {
-    let mut loops = vec![vec![path[0].0]];
-    for (i, (center, radius)) in path.iter().enumerate() {
-        let before = path[i.saturating_sub(1)].0;
-        let after = path[(i + 1).min(path.len() - 1)].0;
-        let turn = det::frame((after - before).normalize(), x_hint);
-        loops.push(circle(*radius, 0.0, count).into_iter().map(|p| turn * p + *center).collect());
-    }
-    loops.push(vec![path[path.len() - 1].0]);
-    solid(&loops)
+/// The same with its straight sides along x and y cut into pieces, so that long walls get well-shaped triangles.
+pub fn divided_rectangle(half: DVec2, radius: f64, z: f64, per_corner: usize, pieces: [usize; 2]) -> Loop {
+    let corners = rectangle_corners(half, radius, z, per_corner);
+    (0..4)
+        .flat_map(|k| {
+            let (last, next) = (corners[k][per_corner - 1], corners[(k + 1) % 4][0]);
+            // After the first corner (+x +y) comes the upper side, which runs along x.
+            let pieces = pieces[k % 2];
+            let inner = (1..pieces).map(move |i| last.lerp(next, i as f64 / pieces as f64));
+            corners[k].iter().copied().chain(inner)
+        })
+        .collect()
+}
+
+fn rectangle_corners(half: DVec2, radius: f64, z: f64, per_corner: usize) -> [Loop; 4] {
+    let signs = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+    std::array::from_fn(|k| {
+        let center = DVec2::from(signs[k]) * (half - DVec2::splat(radius));
+        (0..per_corner)
+            .map(|i| {
+                let angle = TAU / 4.0 * (k as f64 + i as f64 / (per_corner - 1) as f64);
+                (center + DVec2::new(det::cos(angle), det::sin(angle)) * radius).extend(z)
+            })
+            .collect()
+    })
 }

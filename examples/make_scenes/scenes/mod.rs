@@ -8,6 +8,7 @@ mod erosion;
 mod gear;
 mod gearbox;
 mod glb;
+mod gltf_json;
 mod hand;
 mod loft;
 mod mesh;

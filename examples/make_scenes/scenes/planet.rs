@@ -20,7 +20,7 @@ pub fn planet() -> Vec<u8> {
     let moon_map = glb.texture("moon", &paint::jpeg(&paint::rgb(512, 256, moon), 88), Sampling::GLOBE);
     let white = |name, texture, roughness| Look::new(name, 0xff_ffff, 0.0, roughness).textured(texture);
     let layers = [
-        ("clouds", globe(1.025, 96, 48), white("clouds", clouds_map, 0.95).blended(1.0)),
+        ("clouds", globe(1.012, 96, 48), white("clouds", clouds_map, 0.95).blended(1.0)),
         ("crust", globe(1.0, 128, 64), white("crust", crust_map, 0.62)),
         ("mantle", globe(0.9, 96, 48), white("mantle", mantle_map, 0.8).glowing(0x38_0c02)),
         ("outer-core", globe(0.6, 80, 40), white("outer-core", core_map, 0.5).glowing(0x8a_3a08)),
@@ -53,15 +53,15 @@ fn warped(seed: u64, p: DVec3, amount: f64) -> DVec3 {
 fn elevation(p: DVec3) -> f64 {
     let q = warped(40, p * 1.35, 0.55);
     let continents = fbm(7, q * 1.1, 7);
-    let mountains = ridged(90, p * 4.2, 5) * smoothstep(-0.02, 0.25, continents);
-    continents + 0.22 * mountains - 0.07
+    let mountains = ridged(90, p * 4.2, 5) * smoothstep(0.0, 0.3, continents - 0.08);
+    0.8 * (continents - 0.09) + 0.16 * mountains
 }
 
 fn crust(u: f64, v: f64) -> Paint {
     let p = on_sphere(u, v);
     let height = elevation(p);
     let latitude = p.y.abs() + 0.09 * fbm(300, p * 5.0, 4);
-    let ice = smoothstep(0.86, 0.91, latitude + 0.25 * height.max(0.0));
+    let ice = smoothstep(0.88, 0.93, latitude + 0.25 * height.max(0.0));
     let surface = if height < 0.0 { sea(height) } else { land(p, height, latitude) };
     mix(surface, paint(0xf2_f6fa), ice)
 }
@@ -76,9 +76,9 @@ fn land(p: DVec3, height: f64, latitude: f64) -> Paint {
     let dry = ramp(&[(0.0, 0xd9_bf86), (0.2, 0xc4_9a5e), (0.45, 0x9a_7048)], height);
     let lowland = mix(dry, green, smoothstep(-0.22, 0.16, moisture));
     let cold = mix(lowland, paint(0x8c_8f74), smoothstep(0.62, 0.82, latitude));
-    let rock = mix(cold, paint(0x7d_6a58), smoothstep(0.3, 0.42, height));
-    let snow = mix(rock, paint(0xf4_f4f2), smoothstep(0.44, 0.54, height + 0.2 * latitude));
-    paint::scale(snow, 0.94 + 0.12 * value(500, p * 60.0))
+    let rock = mix(cold, paint(0x7d_6a58), smoothstep(0.24, 0.36, height));
+    let snow = mix(rock, paint(0xf4_f4f2), smoothstep(0.4, 0.5, height + 0.12 * latitude));
+    paint::scale(snow, 0.97 + 0.06 * value(500, p * 34.0))
 }
 
 fn clouds(u: f64, v: f64) -> (Paint, f64) {
@@ -87,7 +87,8 @@ fn clouds(u: f64, v: f64) -> (Paint, f64) {
     let q = warped(600, p * dvec3(1.6, 2.6, 1.6), 0.85);
     let belts = 0.16 * det::cos(9.0 * p.y + 0.6);
     let cover = fbm(640, q * 1.5, 6) + belts;
-    (paint(0xff_ffff), 0.94 * smoothstep(0.06, 0.42, cover))
+    // Few levels of alpha make the file small and are not seen.
+    (paint(0xff_ffff), (0.94 * smoothstep(0.02, 0.4, cover) * 40.0).round() / 40.0)
 }
 
 fn mantle(u: f64, v: f64) -> Paint {

@@ -14,11 +14,11 @@ use super::shapes::bevelled_box;
 use super::village;
 
 /// Samples along a side of the ground.
-const SIZE: usize = 190;
+const SIZE: usize = 176;
 /// Side length in scene units.
 const SIDE: f64 = 4.0;
 const BASE: f64 = -0.55;
-const LAKE: f64 = 0.075;
+const LAKE: f64 = 0.128;
 
 /// The ground: heights in scene units, and how much water runs where.
 pub struct Ground {
@@ -41,7 +41,7 @@ fn file(ground: &Ground) -> Vec<u8> {
     let map = glb.texture("satellite", &map, Sampling::SMOOTH);
     let surface = glb.material(Look::new("ground", 0xff_ffff, 0.0, 0.9).textured(map));
     let earth = glb.material(Look::new("earth", 0x6b_5240, 0.0, 0.95));
-    let water = glb.material(Look::new("water", 0x1d_5f7e, 0.1, 0.12).blended(0.78));
+    let water = glb.material(Look::new("water", 0x0e_62a4, 0.0, 0.18).blended(0.8));
     let plinth = glb.material(Look::new("plinth", 0x2b_2e33, 0.0, 0.55));
     let block = glb.mesh_of("terrain", &[(&ground.surface(), surface), (&ground.skirt(), earth)]);
     glb.node("terrain", Place::mesh(block));
@@ -58,11 +58,16 @@ fn file(ground: &Ground) -> Vec<u8> {
 impl Ground {
     fn new() -> Self {
         let mut heights = Heights::from_fn(SIZE, |x, y| raw(dvec2(x as f64, y as f64) / (SIZE - 1) as f64));
-        let flow = heights.rain(60_000, 11);
-        heights.smooth(0.35);
+        // Rain cuts gullies and smoothing wears their sides down, in turns.
+        let mut flow = vec![0.0; SIZE * SIZE];
+        for seed in 0..4 {
+            let passed = heights.rain(14_000, seed);
+            flow.iter_mut().zip(passed).for_each(|(sum, drops)| *sum += drops);
+            heights.smooth(0.45);
+        }
         // From grid steps to scene units.
         let step = SIDE / (SIZE - 1) as f64;
-        heights.data.iter_mut().for_each(|h| *h = (*h * step * 1e5).round() / 1e5);
+        heights.data.iter_mut().for_each(|h| *h = deepened(*h * step));
         let mut flow = Heights { size: SIZE, data: flow };
         (0..2).for_each(|_| flow.smooth(0.6));
         Self { heights, flow }
@@ -165,8 +170,8 @@ impl Ground {
         let bare = mix(alpine, rock, smoothstep(0.75, 1.15, slope + 0.35 * grain + 0.25 * height));
         let snow = smoothstep(0.86, 1.0, height + 0.12 * grain - 0.12 * (slope - 0.9));
         let snowed = mix(bare, paint(0xf1_f4f8), snow);
-        let stream = smoothstep(26.0, 60.0, self.flow.sample(uv * (SIZE - 1) as f64)) * (1.0 - snow);
-        let wet = mix(snowed, paint(0x5f_8f9a), 0.6 * stream);
+        let stream = smoothstep(45.0, 120.0, self.flow.sample(uv * (SIZE - 1) as f64)) * (1.0 - snow);
+        let wet = mix(snowed, paint(0x5f_8f9a), 0.5 * stream);
         let shore = 1.0 - smoothstep(0.006, 0.03, height - LAKE);
         mix(wet, paint(0xbf_ad84), 0.85 * shore)
     }
@@ -203,6 +208,12 @@ impl Ground {
     }
 }
 
+/// Rain levels the basin; below the lake's surface the ground is drawn down again.
+fn deepened(height: f64) -> f64 {
+    let deep = if height < LAKE { LAKE - 3.2 * (LAKE - height) } else { height };
+    (deep * 1e5).round() / 1e5
+}
+
 /// The land before the rain, in grid steps: a massif behind, a valley that winds to the front, hills.
 fn raw(uv: DVec2) -> f64 {
     let p = dvec3(uv.x, 0.3, uv.y);
@@ -214,6 +225,6 @@ fn raw(uv: DVec2) -> f64 {
     let rise = smoothstep(0.04, 0.46, valley) * (0.42 + 0.58 * (1.0 - uv.y));
     let back = 0.55 * (1.0 - smoothstep(0.05, 0.75, uv.y));
     let height = 0.12 + 0.1 * hills + rise * (0.18 + 0.75 * massif) + back * massif * 0.8 + 0.1 * back;
-    let sunk = height - 0.16 * (1.0 - smoothstep(0.08, 0.3, basin));
+    let sunk = height - 0.24 * (1.0 - smoothstep(0.06, 0.27, basin));
     sunk * (SIZE - 1) as f64 / SIDE
 }

@@ -1,5 +1,7 @@
 //! Houses, a church and trees on the terrain: a few meshes, many nodes.
 
+use std::f64::consts::TAU;
+
 use glam::{DMat3, DVec2, DVec3, dvec2, dvec3};
 
 use super::det;
@@ -11,7 +13,7 @@ use super::shapes::cuboid;
 use super::terrain::Ground;
 
 /// Where the village lies, in texture coordinates.
-const CENTER: DVec2 = dvec2(0.47, 0.82);
+const CENTER: DVec2 = dvec2(0.46, 0.76);
 const HOUSES: usize = 22;
 const TREES: usize = 260;
 
@@ -23,7 +25,7 @@ pub fn build(glb: &mut Glb, ground: &Ground) {
 
 /// The flattest dry spot near the wished-for centre.
 fn flattest(ground: &Ground) -> DVec2 {
-    let spots = (0..15 * 15).map(|i| CENTER + dvec2(f64::from(i % 15) - 7.0, f64::from(i / 15) - 7.0) * 0.02);
+    let spots = (0..15 * 15).map(|i| CENTER + dvec2(f64::from(i % 15) - 7.0, f64::from(i / 15) - 7.0) * 0.012);
     let cost = |uv: DVec2| {
         let around = [dvec2(0.04, 0.0), dvec2(-0.04, 0.0), dvec2(0.0, 0.04), dvec2(0.0, -0.04), DVec2::ZERO];
         around
@@ -52,7 +54,7 @@ fn houses(glb: &mut Glb, ground: &Ground, site: DVec2) {
     let mut tries = 0;
     while placed.len() <= HOUSES && tries < 4000 {
         tries += 1;
-        let angle = random.range(0.0, 6.28);
+        let angle = random.range(0.0, TAU);
         let uv = site + dvec2(det::cos(angle), 0.8 * det::sin(angle)) * random.range(0.025, 0.12);
         let turn = det::rotation(DVec3::Y, random.range(-0.5, 0.5) + if random.unit() < 0.4 { 1.57 } else { 0.0 });
         let free = placed.iter().all(|other| (*other - uv).length() > 0.026);
