@@ -1,6 +1,6 @@
 //! Why one lens is above another, and whether it matters.
 
-use super::Plan;
+use super::{LensSet, Plan, Rank};
 use crate::spec::{Filter, Spec};
 
 /// What decided that one lens is below another.
@@ -43,29 +43,45 @@ impl Plan {
     pub fn reason(&self, spec: &Spec, below: usize, above: usize) -> Reason {
         let (low, high) = (&self.lenses[below], &self.lenses[above]);
         let name = |index: usize| spec.lenses[index].name.value.clone();
-        if let Some(chain) = self.graph.chain(low.index, high.index) {
+        if let Some(chain) = self.graph.chain(low.index, high.index, &self.ranks) {
             let edge = |(a, b, declared): (usize, usize, &super::Declared)| {
                 (declared.key.name(), spec.source.line(declared.span.start), name(a), name(b))
             };
             return Reason::Declared(chain.into_iter().map(edge).collect());
         }
-        let (a, b) = (self.ranks[low.index], self.ranks[high.index]);
-        // The greedy choice took the lower first; had the upper been ready, would it have gone first?
-        let upper_waited = (below..above)
-            .rev()
-            .map(|rank| self.lenses[rank].index)
-            .find(|between| self.graph.chain(*between, high.index).is_some());
-        if let Some(between) = upper_waited {
-            return Reason::Waited(name(between));
+        let by_file = self.separated_by_file(below);
+        if by_file.contains(above) {
+            return Reason::FileOrder;
         }
-        if a.priority != b.priority {
-            return Reason::Priority(a.priority, b.priority);
+        if let Some(reason) = directly(&self.ranks[low.index], &self.ranks[high.index]) {
+            return reason;
         }
-        match (a.flat, b.flat) {
-            (Some(far), Some(near)) if far != near => Reason::Farther(far, near),
-            _ => Reason::FileOrder,
-        }
+        // Whatever the file's order, the lower goes first: it beats a lens that the upper one must wait for.
+        let awaited = (below + 1..above).find(|rank| {
+            let between = self.lenses[*rank].index;
+            !by_file.contains(*rank)
+                && directly(&self.ranks[low.index], &self.ranks[between]).is_some()
+                && self.graph.chain(between, high.index, &self.ranks).is_some()
+        });
+        awaited.map_or(Reason::FileOrder, |rank| Reason::Waited(self.lenses[rank].name.clone()))
     }
+
+    /// The lenses above one that would be below it if it stood elsewhere in the file: nothing else separates them.
+    pub fn separated_by_file(&self, below: usize) -> LensSet {
+        let own = self.lenses[below].index;
+        let order = self.graph.order_if_last(own, &self.ranks);
+        let before = |rank: usize| order.iter().take_while(|lens| **lens != own).any(|l| *l == self.lenses[rank].index);
+        (below + 1..self.lenses.len()).filter(|rank| before(*rank)).collect()
+    }
+}
+
+/// What puts one lens below another when both are ready, wherever they stand in the file.
+fn directly(low: &Rank, high: &Rank) -> Option<Reason> {
+    if low.priority != high.priority {
+        return (low.priority < high.priority).then_some(Reason::Priority(low.priority, high.priority));
+    }
+    let (far, near) = (low.flat?, high.flat?);
+    (far > near).then_some(Reason::Farther(far, near))
 }
 
 /// Whether two lenses' filters make the same picture in either order.
