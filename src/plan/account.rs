@@ -97,13 +97,12 @@ impl Account {
 }
 
 fn undecided(plan: &Plan, regions: &[Region]) -> Vec<Undecided> {
-    let by_file: Vec<_> = (0..plan.lenses.len()).map(|below| plan.separated_by_file(below)).collect();
     let mut pairs = Vec::new();
     for above in 0..plan.lenses.len() {
         for below in 0..above {
             let meet = || regions.iter().any(|r| r.set.contains(below) && r.set.contains(above));
             let (low, high) = (&plan.lenses[below], &plan.lenses[above]);
-            if by_file[below].contains(above) && !commute(low, high) && meet() {
+            if !commute(low, high) && meet() && plan.only_file_order(below, above) {
                 pairs.push(Undecided {
                     below: low.name.clone(),
                     above: high.name.clone(),

@@ -1,6 +1,6 @@
 //! Why one lens is above another, and whether it matters.
 
-use super::{LensSet, Plan, Rank};
+use super::Plan;
 use crate::spec::{Filter, Spec};
 
 /// What decided that one lens is below another.
@@ -49,39 +49,32 @@ impl Plan {
             };
             return Reason::Declared(chain.into_iter().map(edge).collect());
         }
-        let by_file = self.separated_by_file(below);
-        if by_file.contains(above) {
+        if self.only_file_order(below, above) {
             return Reason::FileOrder;
         }
-        if let Some(reason) = directly(&self.ranks[low.index], &self.ranks[high.index]) {
-            return reason;
+        let (a, b) = (&self.ranks[low.index], &self.ranks[high.index]);
+        if a.priority < b.priority {
+            return Reason::Priority(a.priority, b.priority);
         }
-        // Whatever the file's order, the lower goes first: it beats a lens that the upper one must wait for.
-        let awaited = (below + 1..above).find(|rank| {
-            let between = self.lenses[*rank].index;
-            !by_file.contains(*rank)
-                && directly(&self.ranks[low.index], &self.ranks[between]).is_some()
-                && self.graph.chain(between, high.index, &self.ranks).is_some()
-        });
-        awaited.map_or(Reason::FileOrder, |rank| Reason::Waited(self.lenses[rank].name.clone()))
+        if let (Some(far), Some(near), true) = (a.flat, b.flat, a.priority == b.priority)
+            && far > near
+        {
+            return Reason::Farther(far, near);
+        }
+        // Taken by itself the upper one would go first, but it has to wait for a lens that comes after the lower.
+        let awaited = |rank: &usize| self.graph.chain(self.lenses[*rank].index, high.index, &self.ranks).is_some();
+        let by_more_than_file = |rank: &usize| awaited(rank) && !self.only_file_order(below, *rank);
+        let between = || below + 1..above;
+        match between().find(by_more_than_file).or_else(|| between().find(awaited)) {
+            Some(rank) => Reason::Waited(self.lenses[rank].name.clone()),
+            None => Reason::FileOrder,
+        }
     }
 
-    /// The lenses above one that would be below it if it stood elsewhere in the file: nothing else separates them.
-    pub fn separated_by_file(&self, below: usize) -> LensSet {
-        let own = self.lenses[below].index;
-        let order = self.graph.order_if_last(own, &self.ranks);
-        let before = |rank: usize| order.iter().take_while(|lens| **lens != own).any(|l| *l == self.lenses[rank].index);
-        (below + 1..self.lenses.len()).filter(|rank| before(*rank)).collect()
+    /// Whether the lens of rank `below` is below the other for no better reason than where they stand in the file.
+    pub fn only_file_order(&self, below: usize, above: usize) -> bool {
+        self.graph.turns_round(self.lenses[below].index, self.lenses[above].index, &self.ranks)
     }
-}
-
-/// What puts one lens below another when both are ready, wherever they stand in the file.
-fn directly(low: &Rank, high: &Rank) -> Option<Reason> {
-    if low.priority != high.priority {
-        return (low.priority < high.priority).then_some(Reason::Priority(low.priority, high.priority));
-    }
-    let (far, near) = (low.flat?, high.flat?);
-    (far > near).then_some(Reason::Farther(far, near))
 }
 
 /// Whether two lenses' filters make the same picture in either order.

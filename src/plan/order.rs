@@ -129,41 +129,48 @@ impl PriorityGraph {
         self.order_by(ranks, |lens| lens)
     }
 
-    /// The order if the file listed one lens last and, of the others, those that are not flat first. No other order of
-    /// the file leaves more lenses below it: those of its priority that become ready all go before it.
-    pub fn order_if_last(&self, last: usize, ranks: &[Rank]) -> Vec<usize> {
-        self.order_by(ranks, |lens| (lens == last, ranks[lens].flat.is_some(), lens))
+    /// Whether two lenses would come the other way round if the file listed the lower one last and the upper one first.
+    pub fn turns_round(&self, below: usize, above: usize, ranks: &[Rank]) -> bool {
+        let order = self.order_by(ranks, |lens| (lens == below, lens != above, lens));
+        order.iter().find(|lens| [below, above].contains(lens)) == Some(&above)
     }
 
     /// The order if the lenses stood in the file as `place` sorts them.
     fn order_by<K: Ord>(&self, ranks: &[Rank], place: impl Fn(usize) -> K) -> Vec<usize> {
-        let mut done = vec![false; ranks.len()];
-        let mut order = Vec::new();
-        let ready = |done: &[bool], lens: usize| {
-            ranks[lens].enabled
-                && !done[lens]
-                && self
-                    .graph
-                    .neighbors_directed(NodeIndex::new(lens), petgraph::Direction::Incoming)
-                    .all(|below| done[below.index()] || !ranks[below.index()].enabled)
+        let above = |lens: usize| {
+            let targets = self.graph.neighbors(NodeIndex::new(lens)).map(NodeIndex::index);
+            targets.filter(|lens| ranks[*lens].enabled)
         };
-        loop {
-            let candidates: Vec<usize> = (0..ranks.len()).filter(|lens| ready(&done, *lens)).collect();
-            let Some(first) = candidates.iter().copied().min_by_key(|lens| (ranks[*lens].priority, place(*lens))) else {
-                return order;
-            };
-            let same = candidates.into_iter().filter(|lens| ranks[*lens].priority == ranks[first].priority);
-            let next = match ranks[first].flat {
-                None => first,
-                Some(_) => same
-                    .filter_map(|lens| ranks[lens].flat.map(|distance| (distance, lens)))
-                    .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| place(b.1).cmp(&place(a.1))))
-                    .map_or(first, |(_, lens)| lens),
-            };
-            done[next] = true;
+        let enabled = || (0..ranks.len()).filter(|lens| ranks[*lens].enabled);
+        // How many edges each lens still waits for; parallel edges count each.
+        let mut waits = vec![0usize; ranks.len()];
+        enabled().flat_map(above).for_each(|lens| waits[lens] += 1);
+        let mut ready: Vec<usize> = enabled().filter(|lens| waits[*lens] == 0).collect();
+        let mut order = Vec::with_capacity(ranks.len());
+        while let Some(next) = choose(&ready, ranks, &place) {
+            ready.retain(|lens| *lens != next);
             order.push(next);
+            for lens in above(next) {
+                waits[lens] -= 1;
+                if waits[lens] == 0 {
+                    ready.push(lens);
+                }
+            }
         }
+        order
     }
+}
+
+/// Of the ready lenses of lowest priority the earliest; if that is flat, the farthest of those that are, then the earlier.
+fn choose<K: Ord>(ready: &[usize], ranks: &[Rank], place: &impl Fn(usize) -> K) -> Option<usize> {
+    let first = ready.iter().copied().min_by_key(|lens| (ranks[*lens].priority, place(*lens)))?;
+    if ranks[first].flat.is_none() {
+        return Some(first);
+    }
+    let same = ready.iter().copied().filter(|lens| ranks[*lens].priority == ranks[first].priority);
+    same.filter_map(|lens| Some((ranks[lens].flat?, lens)))
+        .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| place(b.1).cmp(&place(a.1))))
+        .map(|(_, lens)| lens)
 }
 
 /// The other lenses a pattern stands for.

@@ -16,13 +16,14 @@ const SIZE: [u32; 2] = [22, 18];
 /// A solid before a camera. Drawn again where the random numbers leave no such stand.
 pub fn stage(kind: &str, stand: Stand, random: &mut Random) -> Option<(Solid, View)> {
     (0..20).find_map(|_| {
+        let seed = random.index(1 << 30) as u64;
         let mut view = camera(random, SIZE);
         let placed = placement(random, &view);
         // What is attached to the camera moves with the eye, so the eye is chosen for the solid as it stands; a flat
         // lens is then made anew, for that eye.
-        let solid = Solid::new(kind, &mut Random::new(7), &placed, &view)?;
+        let solid = Solid::new(kind, &mut Random::new(seed), &placed, &view)?;
         view.eye = eye(stand, random, &view, &solid);
-        let solid = Solid::new(kind, &mut Random::new(7), &placed, &view)?;
+        let solid = Solid::new(kind, &mut Random::new(seed), &placed, &view)?;
         set_planes(stand, random, &mut view, &solid)?;
         Some((solid, view))
     })
@@ -120,7 +121,7 @@ fn agree(kind: &str) {
         let possible = kind != "flat" || !matches!(stand, Stand::Inside | Stand::BeforeNear);
         assert!(!possible || staged > PLACEMENTS / 2, "{kind}: only {staged} placements were {stand:?}");
         let seen = matches!(stand, Stand::Between | Stand::AcrossNear | Stand::AcrossFar | Stand::AcrossBoth);
-        assert!(!seen || (tally.hits > 200 && tally.misses > 200), "{kind} {stand:?}: {} hits", tally.hits);
+        assert!(!seen || (tally.hits > 50 && tally.misses > 50), "{kind} {stand:?}: {} hits", tally.hits);
     }
 }
 
@@ -168,7 +169,9 @@ fn a_shifted_or_swapped_interval_is_noticed() {
             assert!(bounds.check(Some(Interval { entry: exit, exit: entry })).is_err(), "{kind}: swapped");
             assert!(bounds.check(None).is_err(), "{kind}: left out");
             let shift = 0.01 * (exit - entry);
-            for (entry, exit) in [(entry + shift, exit), (entry - shift, exit), (entry, exit + shift), (entry, exit - shift)] {
+            for (entry, exit) in
+                [(entry + shift, exit), (entry - shift, exit), (entry, exit + shift), (entry, exit - shift)]
+            {
                 asked += 1;
                 shifts += usize::from(bounds.check(Some(Interval { entry, exit })).is_err());
             }

@@ -188,7 +188,11 @@ impl Bounds {
         let outer = outer.ok_or(format!("{entry} to {exit}, and half-spaces have nothing"))?;
         let slack = self.slack([entry, exit]);
         let within = |what: &str, x: f64, low: f64, high: f64| {
-            if x >= low - slack && x <= high + slack { Ok(()) } else { Err(format!("{what} {x} is not in {low} .. {high}")) }
+            if x >= low - slack && x <= high + slack {
+                Ok(())
+            } else {
+                Err(format!("{what} {x} is not in {low} .. {high}"))
+            }
         };
         if !(entry >= self.near && exit <= self.far && entry < exit) {
             return Err(format!("{entry} to {exit} is no interval between {} and {}", self.near, self.far));

@@ -8,9 +8,8 @@ use lenspeel::view::View;
 use crate::facets::{Triangle, capsule_profile, corners_of_planes, frame, hull_facets, lathe};
 use crate::random::Random;
 
-pub const KINDS: [&str; 11] = [
-    "sphere", "ellipsoid", "cuboid", "cylinder", "cone", "apex", "capsule", "ball", "polytope", "hull", "flat",
-];
+pub const KINDS: [&str; 11] =
+    ["sphere", "ellipsoid", "cuboid", "cylinder", "cone", "apex", "capsule", "ball", "polytope", "hull", "flat"];
 
 /// How much farther from the eye than its corners the end of a flat lens without depth is put in the mesh.
 const FAR_AWAY: f64 = 1e4;

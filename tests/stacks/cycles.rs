@@ -100,7 +100,8 @@ fn ranks_are_those_of_the_enabled_lenses() {
         indices.sort_unstable();
         let enabled: Vec<usize> = (0..case.lenses.len()).filter(|i| case.lenses[*i].enabled).collect();
         assert_eq!(indices, enabled);
-        let hides = plan.lenses.iter().enumerate().all(|(rank, lens)| lens.hides.minus(LensSet::below(rank)).is_empty());
+        let hides =
+            plan.lenses.iter().enumerate().all(|(rank, lens)| lens.hides.minus(LensSet::below(rank)).is_empty());
         assert!(hides, "a lens hides only what is below it");
     }
 }

@@ -62,20 +62,3 @@ pub fn total_order(case: &Case, edges: &[(usize, usize)], file: &[usize]) -> Vec
     }
     order
 }
-
-/// All orders of `0..count`.
-pub fn permutations(count: usize) -> Vec<Vec<usize>> {
-    if count == 0 {
-        return vec![Vec::new()];
-    }
-    let shorter = permutations(count - 1);
-    (0..count)
-        .flat_map(|place| {
-            shorter.iter().map(move |rest| {
-                let mut longer = rest.clone();
-                longer.insert(place, count - 1);
-                longer
-            })
-        })
-        .collect()
-}

@@ -1,45 +1,47 @@
-//! Why one lens is above another: each reason against what the order does when the file's order changes.
+//! Why one lens is above another: each reason against what the order does when the two move in the file.
 //!
-//! The order of the file is what separates two lenses if and only if they come the other way round in the same file
-//! with its lenses in some other order.
+//! The order of the file is what separates two lenses if they come the other way round once the lower one is listed
+//! last and the upper one first, all else as it is.
 
 use lenspeel::plan::Reason;
 
 use crate::case::{Case, random_acyclic};
-use crate::order::{distance, edges, permutations, total_order};
+use crate::order::{distance, edges, total_order};
 use crate::random::Random;
 
-const CASES: usize = 400;
-const MOST_LENSES: usize = 5;
+const CASES: usize = 1000;
+const MOST_LENSES: usize = 7;
 
 struct Orders<'a> {
     case: &'a Case,
     /// Declared, between enabled lenses.
     edges: Vec<(usize, usize)>,
-    /// The total order, as places by position in the file, for every order of the file.
-    places: Vec<Vec<Option<usize>>>,
+    all: Vec<(usize, usize)>,
 }
 
 impl<'a> Orders<'a> {
     fn new(case: &'a Case) -> Self {
         let all = edges(case);
-        let count = case.lenses.len();
-        let places = |file: &Vec<usize>| {
-            let order = total_order(case, &all, file);
-            (0..count).map(|lens| order.iter().position(|other| *other == lens)).collect()
-        };
-        let places = permutations(count).iter().map(places).collect();
         let enabled = |lens: usize| case.lenses[lens].enabled;
-        Self { case, edges: all.into_iter().filter(|(a, b)| enabled(*a) && enabled(*b)).collect(), places }
+        let edges = all.iter().copied().filter(|(a, b)| enabled(*a) && enabled(*b)).collect();
+        Self { case, edges, all }
     }
 
-    /// Whether the two come the other way round in some order of the file.
     fn only_file_order(&self, below: usize, above: usize) -> bool {
-        self.places.iter().any(|places| places[above] < places[below])
+        let mut file: Vec<usize> = (0..self.case.lenses.len()).filter(|lens| ![below, above].contains(lens)).collect();
+        file.insert(0, above);
+        file.push(below);
+        let order = total_order(self.case, &self.all, &file);
+        order.iter().position(|lens| *lens == above) < order.iter().position(|lens| *lens == below)
     }
 
     fn declared(&self, below: usize, above: usize) -> bool {
         self.edges.iter().any(|(a, b)| *a == below && (*b == above || self.declared(*b, above)))
+    }
+
+    fn is_farther(&self, below: usize, above: usize) -> bool {
+        let at = |lens: usize| self.case.lenses[lens].flat.map(|at| distance(self.case, at));
+        matches!((at(below), at(above)), (Some(low), Some(high)) if low > high)
     }
 
     fn index(&self, name: &str) -> usize {
@@ -49,7 +51,7 @@ impl<'a> Orders<'a> {
     /// Whether a reason is true and is what separates the two.
     fn bears(&self, reason: &Reason, below: usize, above: usize, order: &[usize]) -> bool {
         let (low, high) = (&self.case.lenses[below], &self.case.lenses[above]);
-        let fixed = !self.only_file_order(below, above);
+        let fixed = |below, above| !self.only_file_order(below, above);
         let declared = self.declared(below, above);
         let place = |lens: usize| order.iter().position(|other| *other == lens);
         match reason {
@@ -62,20 +64,26 @@ impl<'a> Orders<'a> {
                     && chain.iter().all(|(_, _, a, b)| edge(a, b))
             }
             Reason::Priority(a, b) => {
-                !declared && fixed && a < b && [*a, *b] == [low.priority, high.priority]
+                !declared && fixed(below, above) && a < b && [*a, *b] == [low.priority, high.priority]
             }
             Reason::Farther(a, b) => {
                 let truth = [low.flat, high.flat].map(|at| at.map(|at| distance(self.case, at)));
                 let close = |a: f64, b: Option<f64>| b.is_some_and(|b| (a - b).abs() < 1e-9);
-                !declared && fixed && a > b && close(*a, truth[0]) && close(*b, truth[1]) && low.priority == high.priority
+                !declared
+                    && fixed(below, above)
+                    && a > b
+                    && close(*a, truth[0])
+                    && close(*b, truth[1])
+                    && low.priority == high.priority
             }
             Reason::Waited(name) => {
                 let awaited = self.index(name);
                 let between = place(below) < place(awaited) && place(awaited) < place(above);
-                let direct = self.declared(awaited, above) && !self.only_file_order(below, awaited);
-                !declared && fixed && between && direct
+                let loses =
+                    low.priority > high.priority || (low.priority == high.priority && !self.is_farther(below, above));
+                !declared && fixed(below, above) && between && loses && self.declared(awaited, above)
             }
-            Reason::FileOrder => !declared && !fixed,
+            Reason::FileOrder => !declared && !fixed(below, above),
         }
     }
 }
