@@ -141,7 +141,7 @@ fn cone_span(o: DVec3, d: DVec3, r0: f64, r1: f64) -> Option<Span> {
     let (inward, outward) = side_span(o, d, r0, r1 - r0)?;
     let entry = if inward > t0 { (inward, CONE_SIDE) } else { (t0, cap0) };
     let exit = if outward < t1 { (outward, CONE_SIDE) } else { (t1, cap1) };
-    Some(span(entry, exit))
+    (entry.0 < exit.0).then(|| span(entry, exit))
 }
 
 /// Where a line is inside an endless cone with radius `r0 + slope * z`, on the side of the apex where that is positive.

@@ -80,9 +80,12 @@ pub fn set_planes(stand: Stand, random: &mut Random, view: &mut View, solid: &So
     let margin = 0.5 * (high - low);
     let before = (low - margin * random.between(0.1, 1.0)).max(least);
     let share = random.between(0.2, 0.5);
-    let visible = high > low;
+    // What a flat lens holds reaches from its corners forwards.
+    let visible = (if solid.is_flat { high - 3.0 * solid.size } else { high }) > least.max(0.0);
     (view.near, view.far) = match stand {
         Stand::Between if visible => (before, high + margin),
+        // A flat lens without depth has no farther end.
+        Stand::Inside if solid.is_flat => (least.max(0.0), solid.size),
         Stand::Inside => (if view.is_perspective() { least } else { 0.0 }, high.abs() + margin.abs() + solid.size),
         Stand::AcrossNear if visible => (at(share), high + margin),
         Stand::AcrossFar if visible => (before, at(share)),
@@ -90,7 +93,7 @@ pub fn set_planes(stand: Stand, random: &mut Random, view: &mut View, solid: &So
         Stand::BeforeNear if visible && !solid.is_flat => (high + 0.01 * margin, high + margin),
         Stand::BeyondFar if visible && before > least => (before - 0.5 * (before - least).min(1.0), before),
         Stand::Behind if view.is_perspective() && !visible => (least, 10.0 * solid.size),
-        Stand::Behind if !view.is_perspective() && high < 0.0 => (low - margin, high + margin),
+        Stand::Behind if !view.is_perspective() && !visible => (low - margin, high + margin),
         _ => return None,
     };
     Some(())

@@ -69,20 +69,20 @@ impl Solid {
         let shape = shape(kind, random);
         let map = placement.attach * own_map(placement);
         let volume = build_volume(&shape, placement, view).unwrap_or_else(|e| panic!("{shape:?}: {e}"));
-        let (body, triangles, map, corners) = match &shape {
+        let (body, triangles, map, corners, between) = match &shape {
             Shape::Flat { corners, depth } => {
                 let corners: Vec<DVec3> = corners.iter().map(|c| map.transform_point3(DVec3::from_array(*c))).collect();
-                let points = frustum(&corners, *depth, &map, view)?;
-                (Body::Points(points.clone()), hull_facets(&points), DAffine3::IDENTITY, corners)
+                let (points, between) = frustum(&corners, *depth, &map, view)?;
+                (Body::Points(points.clone()), hull_facets(&points), DAffine3::IDENTITY, corners, Some(between))
             }
             other => {
                 let (body, triangles) = geometry(other);
-                (body, triangles, map, Vec::new())
+                (body, triangles, map, Vec::new(), None)
             }
         };
         let is_flat = volume.is_flat;
         let triangles: Vec<Triangle> = triangles.into_iter().map(|t| t.map(|p| map.transform_point3(p))).collect();
-        let middle = middle(&triangles);
+        let middle = between.unwrap_or_else(|| middle(&triangles));
         let mut solid = Self { volume, facets: Vec::new(), middle, size: 0.0, is_flat, body, map, corners };
         let measured: Vec<DVec3> =
             if is_flat { solid.corners.clone() } else { triangles.iter().flatten().copied().collect() };
@@ -101,7 +101,8 @@ impl Solid {
     /// A random point inside.
     pub fn inner(&self, random: &mut Random) -> DVec3 {
         let tip = self.support(direction(random));
-        self.middle + (tip - self.middle) * random.between(0.0, if self.is_flat { 1e-3 } else { 0.9 })
+        let near = (self.size / tip.distance(self.middle)).min(1.0);
+        self.middle + (tip - self.middle) * near * random.between(0.0, 0.9)
     }
 }
 
@@ -117,7 +118,9 @@ impl Body {
             Body::Balls([a, b], radius) => farther(*a, *b) + n.normalize() * *radius,
             Body::Discs([a, b], [r0, r1]) => {
                 let axis = (*b - *a).normalize();
-                let across = (n - axis * n.dot(axis)).normalize_or_zero();
+                let across = n - axis * n.dot(axis);
+                // Along the axis all of a cap is as far.
+                let across = if across.length() > 1e-9 * n.length() { across.normalize() } else { DVec3::ZERO };
                 farther(*a + across * *r0, *b + across * *r1)
             }
             Body::Points(points) => points.iter().copied().reduce(farther).expect("a solid has corners"),
@@ -195,8 +198,9 @@ fn cone(from: DVec3, to: DVec3, r0: f64, r1: f64) -> (Body, Vec<Triangle>) {
     (Body::Discs([from, to], [r0, r1]), mesh.into_iter().map(|t| t.map(|p| from + axes * p)).collect())
 }
 
-/// The corners of what the eye sees through a polygon (SEMANTICS 2.5), and the same a way farther from the eye.
-fn frustum(corners: &[DVec3], depth: Option<f64>, map: &DAffine3, view: &View) -> Option<Vec<DVec3>> {
+/// The corners of what the eye sees through a polygon (SEMANTICS 2.5), and the same a way farther from the eye;
+/// with a point between them.
+fn frustum(corners: &[DVec3], depth: Option<f64>, map: &DAffine3, view: &View) -> Option<(Vec<DVec3>, DVec3)> {
     let shape_from_world = map.inverse();
     let own: Vec<DVec3> = corners.iter().map(|c| shape_from_world.transform_point3(*c)).collect();
     let normal = (own[1] - own[0]).cross(own[2] - own[0]).normalize();
@@ -208,7 +212,9 @@ fn frustum(corners: &[DVec3], depth: Option<f64>, map: &DAffine3, view: &View) -
         return None;
     }
     let steps = depth.map_or(FAR_AWAY, |depth| depth / step);
-    Some(corners.iter().copied().chain(corners.iter().map(|c| *c + sight(*c) * steps)).collect())
+    let points = corners.iter().copied().chain(corners.iter().map(|c| *c + sight(*c) * steps)).collect();
+    let center = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    Some((points, center + sight(center) * 0.5 * steps.min(1.0)))
 }
 
 pub fn direction(random: &mut Random) -> DVec3 {
