@@ -117,3 +117,36 @@ fn lines_along_the_axis_and_the_side_of_a_cylinder() {
     let beside = Ray { origin: DVec3::new(0.500_001, 0.0, 5.0), direction: DVec3::NEG_Z };
     assert_eq!(interval(&volume, &beside), None);
 }
+
+/// A slab across a random normal, of some thickness, with four sides.
+fn slab(random: &mut Random, thickness: f64) -> Shape {
+    let (normal, center) = (direction(random), direction(random) * random.between(0.0, 3.0));
+    let axes = crate::facets::frame(normal);
+    let plane = |n: DVec3, reach: f64| [n.x, n.y, n.z, n.dot(center) + reach];
+    let (x, y) = (axes.x_axis, axes.y_axis);
+    let mut planes: Vec<[f64; 4]> = [x, -x, y, -y].map(|n| plane(n, 1.0)).to_vec();
+    planes.extend([normal, -normal].map(|n| plane(n, 0.5 * thickness)));
+    Shape::Polytope { planes }
+}
+
+#[test]
+fn a_polytope_without_thickness_is_refused_however_it_lies() {
+    let mut random = Random::new(203);
+    let built = |shape: &Shape| {
+        let view = camera(&mut Random::new(1), [16, 16]);
+        let placed = Placement {
+            attach: DAffine3::IDENTITY,
+            translation: [0.0; 3],
+            rotation: Rotation::default(),
+            scale: [1.0; 3],
+        };
+        build_volume(shape, &placed, &view)
+    };
+    for _ in 0..CASES {
+        assert!(built(&slab(&mut random, 1e-3)).is_ok());
+        for thickness in [0.0, -1e-3] {
+            let shape = slab(&mut random, thickness);
+            assert!(built(&shape).is_err(), "{shape:?} has a volume");
+        }
+    }
+}
