@@ -93,25 +93,34 @@ enum Writes {
     Removal,
     /// Puts other content in place.
     Content,
-    /// A factor; products commute.
+    /// Factors of the opacity, or lighting switched off: in any order the same comes out.
     Factor,
-    /// The base colour or the other material values.
-    Base,
+    /// Material values, as `BASE_COLOR` and its like.
+    Surface(u32),
     /// The lit colour.
     Lit,
     /// Wires: their coverages multiply, but the upper wire's colour wins.
     Wires,
-    /// Switches lighting off and leaves all else.
-    Flag,
 }
 
+const BASE_COLOR: u32 = 1;
+const METALLIC: u32 = 2;
+const ROUGHNESS: u32 = 4;
+const EMISSIVE: u32 = 8;
+
 fn writes(filter: &Filter) -> Writes {
+    let bit = |written: bool, bit: u32| if written { bit } else { 0 };
     match filter {
         Filter::Erase { .. } => Writes::Removal,
         Filter::Show(_) => Writes::Content,
-        Filter::Opacity { .. } => Writes::Factor,
-        Filter::Unlit { color: None } => Writes::Flag,
-        Filter::Unlit { .. } | Filter::Material { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Base,
+        Filter::Opacity { .. } | Filter::Unlit { color: None } => Writes::Factor,
+        Filter::Unlit { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Surface(BASE_COLOR),
+        Filter::Material { color, metallic, roughness, emissive } => Writes::Surface(
+            bit(color.is_some(), BASE_COLOR)
+                | bit(metallic.is_some(), METALLIC)
+                | bit(roughness.is_some(), ROUGHNESS)
+                | bit(emissive.is_some(), EMISSIVE),
+        ),
         Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } => Writes::Lit,
         Filter::Wireframe { .. } => Writes::Wires,
     }
@@ -120,8 +129,14 @@ fn writes(filter: &Filter) -> Writes {
 fn filters_commute(f: &Filter, g: &Filter) -> bool {
     match (writes(f), writes(g)) {
         (Writes::Content, Writes::Removal) | (Writes::Removal, Writes::Content) => false,
-        (Writes::Wires, Writes::Wires) => wire_color(f) == wire_color(g),
-        (a, b) if a == b && matches!(a, Writes::Content | Writes::Base | Writes::Lit) => f == g,
+        (Writes::Wires, Writes::Wires) => match (wire_color(f), wire_color(g)) {
+            (Some(a), Some(b)) => a == b,
+            _ => true,
+        },
+        (Writes::Surface(a), Writes::Surface(b)) => a & b == 0 || f == g,
+        // Both keep the luminance that they mix towards.
+        (Writes::Lit, Writes::Lit) => f == g || matches!((f, g), (Filter::Grayscale { .. }, Filter::Grayscale { .. })),
+        (Writes::Content, Writes::Content) => f == g,
         _ => true,
     }
 }
