@@ -26,3 +26,17 @@ pub struct Aovs {
     /// One more than the distinct lens boundaries between near and far.
     pub layers: Vec<u16>,
 }
+
+impl Aovs {
+    /// Maps of a picture where nothing is.
+    pub fn empty(size: [u32; 2]) -> Self {
+        let count = size[0] as usize * size[1] as usize;
+        Self {
+            sets: vec![None; count],
+            nodes: vec![0; count],
+            depth: vec![f32::INFINITY; count],
+            normals: vec![[0.0; 3]; count],
+            layers: vec![1; count],
+        }
+    }
+}

@@ -75,16 +75,8 @@ fn ball_span(ray: LocalRay, center: vec3f) -> Span {
     return Span(start.shift - half, start.shift + half, 0u, 0u, true);
 }
 
-// Whether the ray's point at `t` lies within the radius that the cone has at its height.
-fn within_cone(origin: vec3f, direction: vec3f, t: f32, r0: f32, slope: f32) -> bool {
-    if abs(t) >= FAR_AWAY {
-        return false;
-    }
-    let p = origin + direction * t;
-    let r = r0 + slope * p.z;
-    return dot(p.xy, p.xy) <= r * r;
-}
-
+// The slab between the caps and the inside of the side; where a ray goes through a rim or the apex, rounding moves
+// the crossing from one to the other, and nothing is lost. Twin of `cone_span` and `side_span` in `lens/form.rs`.
 fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
     let start = anchored(ray, vec3f(0.0, 0.0, 0.5));
     let o = start.origin;
@@ -101,15 +93,18 @@ fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
     }
     let slope = r1 - r0;
     let radius = r0 + slope * o.z;
-    let a = dot(d.xy, d.xy) - slope * slope * d.z * d.z;
-    let b = dot(o.xy, d.xy) - slope * d.z * radius;
+    let widening = slope * d.z;
+    let a = dot(d.xy, d.xy) - widening * widening;
+    let b = dot(o.xy, d.xy) - widening * radius;
     let c = dot(o.xy, o.xy) - radius * radius;
+    var inward = -FAR_AWAY;
+    var outward = FAR_AWAY;
     // Where a t^2 + 2 b t + c falls and rises through zero, without cancellation, for any a.
     let discriminant = b * b - a * c;
-    var falls = FAR_AWAY;
-    var rises = -FAR_AWAY;
     if discriminant > 0.0 {
         let root = sqrt(discriminant);
+        var falls = 0.0;
+        var rises = 0.0;
         if b > 0.0 {
             falls = (-b - root) / select(a, 1e-30, a == 0.0);
             rises = c / (-b - root);
@@ -117,30 +112,36 @@ fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
             falls = c / (-b + root);
             rises = (-b + root) / select(a, 1e-30, a == 0.0);
         }
-    }
-    var span = no_span();
-    let up = d.z > 0.0;
-    if within_cone(o, d, t0, r0, slope) {
-        span.entry = t0;
-        span.entry_face = select(1u, 0u, up);
-    } else if falls > t0 && falls < t1 {
-        span.entry = falls;
-        span.entry_face = CONE_SIDE;
-    } else {
+        // Steeper than the side, the ray is inside both halves of the double cone, and one of them is meant.
+        if a >= 0.0 || widening > 0.0 {
+            inward = falls;
+        }
+        if a >= 0.0 || widening <= 0.0 {
+            outward = rises;
+        }
+    } else if a < 0.0 {
+        if widening > 0.0 {
+            inward = -radius / widening;
+        } else {
+            outward = -radius / widening;
+        }
+    } else if a > 0.0 || c >= 0.0 {
         return no_span();
     }
-    if within_cone(o, d, t1, r0, slope) {
-        span.exit = t1;
-        span.exit_face = select(0u, 1u, up);
-    } else if rises > t0 && rises < t1 {
-        span.exit = rises;
+    var span = Span(t0, t1, select(1u, 0u, d.z > 0.0), select(0u, 1u, d.z > 0.0), true);
+    if inward > t0 {
+        span.entry = inward;
+        span.entry_face = CONE_SIDE;
+    }
+    if outward < t1 {
+        span.exit = outward;
         span.exit_face = CONE_SIDE;
-    } else {
+    }
+    if span.entry >= span.exit {
         return no_span();
     }
     span.entry += start.shift;
     span.exit += start.shift;
-    span.hit = true;
     return span;
 }
 

@@ -20,6 +20,7 @@ use clap::Parser;
 
 use crate::InputError;
 use crate::scene::Model;
+use crate::spec::Spec;
 use args::{Cli, Command};
 
 pub use filters::filters_text;
@@ -65,15 +66,19 @@ fn print(text: &str) {
 
 fn init_command(path: &Path, output: Option<&Path>) -> Result<(), InputError> {
     let model = Model::load(path, None)?;
+    let starter = |file: &str| {
+        let text = init_text(&model, file);
+        // A model may be larger or smaller than the numbers of a spec reach.
+        Spec::parse(&text, "the starter spec", Path::new("")).map(|_| text)
+    };
     let Some(output) = output else {
-        print(&init_text(&model, &path.display().to_string()));
-        return Ok(());
+        return starter(&path.display().to_string()).map(|text| print(&text));
     };
     if output.exists() {
         let message = format!("{} is there already, and a starter spec would replace it", output.display());
         return Err(InputError::new(message).help("choose another name, or remove it first"));
     }
-    let text = init_text(&model, &relative(path, output).display().to_string());
+    let text = starter(&relative(path, output).display().to_string())?;
     crate::output::write_whole(output, text.as_bytes())
 }
 

@@ -54,7 +54,7 @@ impl<'a> Renderer<'a> {
             .collect();
         let count = size[0] as usize * size[1] as usize;
         let mut pixels = vec![[0; 4]; count];
-        let mut maps = aovs.then(|| empty_aovs(count));
+        let mut maps = aovs.then(|| Aovs::empty(size));
         for result in results {
             for (i, (x, y)) in pixels_of(&result.rect).enumerate() {
                 let at = (y * size[0] + x) as usize;
@@ -117,16 +117,6 @@ impl<'a> Renderer<'a> {
         maps.nodes[at] = self.plan.items[visible.fragment.item as usize].node as u16 + 1;
         maps.depth[at] = visible.fragment.depth;
         maps.normals[at] = visible.normal.to_array();
-    }
-}
-
-fn empty_aovs(count: usize) -> Aovs {
-    Aovs {
-        sets: vec![None; count],
-        nodes: vec![0; count],
-        depth: vec![f32::INFINITY; count],
-        normals: vec![[0.0; 3]; count],
-        layers: vec![1; count],
     }
 }
 

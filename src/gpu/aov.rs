@@ -12,18 +12,6 @@ pub fn bytes(window: &Window, words: u32) -> u64 {
     4 * u64::from(FIXED_WORDS + words) * window.pixels()
 }
 
-/// Maps of a whole picture where nothing is.
-pub fn empty(size: [u32; 2]) -> Aovs {
-    let count = size[0] as usize * size[1] as usize;
-    Aovs {
-        sets: vec![None; count],
-        nodes: vec![0; count],
-        depth: vec![f32::INFINITY; count],
-        normals: vec![[0.0; 3]; count],
-        layers: vec![1; count],
-    }
-}
-
 /// Puts a window's share into the maps of a picture of the given width.
 pub fn store(maps: &mut Aovs, width: u32, window: &Window, words: u32, bytes: &[u8]) {
     let stride = (FIXED_WORDS + words) as usize;

@@ -100,7 +100,7 @@ impl Headless {
         let mut picture = Picture {
             size,
             pixels: vec![[0; 4]; size[0] as usize * size[1] as usize],
-            aovs: options.aovs.then(|| aov::empty(size)),
+            aovs: options.aovs.then(|| Aovs::empty(size)),
         };
         let mut windows = vec![Window::whole(&plan.view)];
         while let Some(window) = windows.pop() {

@@ -136,31 +136,30 @@ fn cone_span(o: DVec3, d: DVec3, r0: f64, r1: f64) -> Option<Span> {
     } else if !(0.0..=1.0).contains(&o.z) {
         return None;
     }
-    let slope = r1 - r0;
+    // The cone is the slab between its caps and the inside of its side; where a line goes through a rim or the
+    // apex, rounding moves the crossing from one to the other, and nothing is lost.
+    let (inward, outward) = side_span(o, d, r0, r1 - r0)?;
+    let entry = if inward > t0 { (inward, CONE_SIDE) } else { (t0, cap0) };
+    let exit = if outward < t1 { (outward, CONE_SIDE) } else { (t1, cap1) };
+    (entry.0 < exit.0).then(|| span(entry, exit))
+}
+
+/// Where a line is inside an endless cone with radius `r0 + slope * z`, on the side of the apex where that is positive.
+fn side_span(o: DVec3, d: DVec3, r0: f64, slope: f64) -> Option<(f64, f64)> {
     let radius = r0 + slope * o.z;
-    let a = d.x * d.x + d.y * d.y - slope * slope * d.z * d.z;
-    let b = o.x * d.x + o.y * d.y - slope * d.z * radius;
+    let widening = slope * d.z;
+    let a = d.x * d.x + d.y * d.y - widening * widening;
+    let b = o.x * d.x + o.y * d.y - widening * radius;
     let c = o.x * o.x + o.y * o.y - radius * radius;
-    let inside_cap = |t: f64| {
-        t.is_finite() && {
-            let p = o + d * t;
-            let r = r0 + slope * p.z;
-            p.x * p.x + p.y * p.y <= r * r
-        }
-    };
-    let crossings = falls_and_rises(a, b, c);
-    let within = |t: f64| t > t0 && t < t1;
-    let entry = if inside_cap(t0) {
-        Some((t0, cap0))
-    } else {
-        crossings.map(|r| r.0).filter(|t| within(*t)).map(|t| (t, CONE_SIDE))
-    };
-    let exit = if inside_cap(t1) {
-        Some((t1, cap1))
-    } else {
-        crossings.map(|r| r.1).filter(|t| within(*t)).map(|t| (t, CONE_SIDE))
-    };
-    Some(span(entry?, exit?))
+    match falls_and_rises(a, b, c) {
+        Some((fall, rise)) if a >= 0.0 => Some((fall, rise)),
+        // Steeper than the side, the line is inside both halves of the double cone, and one of them is meant.
+        Some((fall, _)) if widening > 0.0 => Some((fall, f64::INFINITY)),
+        Some((_, rise)) => Some((f64::NEG_INFINITY, rise)),
+        None if a < 0.0 && widening > 0.0 => Some((-radius / widening, f64::INFINITY)),
+        None if a < 0.0 => Some((f64::NEG_INFINITY, -radius / widening)),
+        None => (a == 0.0 && c < 0.0).then_some((f64::NEG_INFINITY, f64::INFINITY)),
+    }
 }
 
 fn capsule_span(o: DVec3, d: DVec3, length: f64) -> Option<Span> {

@@ -24,7 +24,7 @@ pub struct Account {
 impl Account {
     pub fn new(spec: &Spec, plan: &Plan) -> Self {
         let regions = plan.regions();
-        let undecided = undecided(spec, plan, &regions);
+        let undecided = undecided(plan, &regions);
         let order = (1..plan.lenses.len()).map(|rank| plan.reason(spec, rank - 1, rank)).collect();
         Self { regions, undecided, order }
     }
@@ -96,13 +96,13 @@ impl Account {
     }
 }
 
-fn undecided(spec: &Spec, plan: &Plan, regions: &[Region]) -> Vec<Undecided> {
+fn undecided(plan: &Plan, regions: &[Region]) -> Vec<Undecided> {
     let mut pairs = Vec::new();
     for above in 0..plan.lenses.len() {
         for below in 0..above {
             let meet = || regions.iter().any(|r| r.set.contains(below) && r.set.contains(above));
             let (low, high) = (&plan.lenses[below], &plan.lenses[above]);
-            if !commute(low, high) && meet() && plan.reason(spec, below, above) == Reason::FileOrder {
+            if !commute(low, high) && meet() && plan.only_file_order(below, above) {
                 pairs.push(Undecided {
                     below: low.name.clone(),
                     above: high.name.clone(),

@@ -43,28 +43,37 @@ impl Plan {
     pub fn reason(&self, spec: &Spec, below: usize, above: usize) -> Reason {
         let (low, high) = (&self.lenses[below], &self.lenses[above]);
         let name = |index: usize| spec.lenses[index].name.value.clone();
-        if let Some(chain) = self.graph.chain(low.index, high.index) {
+        if let Some(chain) = self.graph.chain(low.index, high.index, &self.ranks) {
             let edge = |(a, b, declared): (usize, usize, &super::Declared)| {
                 (declared.key.name(), spec.source.line(declared.span.start), name(a), name(b))
             };
             return Reason::Declared(chain.into_iter().map(edge).collect());
         }
-        let (a, b) = (self.ranks[low.index], self.ranks[high.index]);
-        // The greedy choice took the lower first; had the upper been ready, would it have gone first?
-        let upper_waited = (below..above)
-            .rev()
-            .map(|rank| self.lenses[rank].index)
-            .find(|between| self.graph.chain(*between, high.index).is_some());
-        if let Some(between) = upper_waited {
-            return Reason::Waited(name(between));
+        if self.only_file_order(below, above) {
+            return Reason::FileOrder;
         }
-        if a.priority != b.priority {
+        let (a, b) = (&self.ranks[low.index], &self.ranks[high.index]);
+        if a.priority < b.priority {
             return Reason::Priority(a.priority, b.priority);
         }
-        match (a.flat, b.flat) {
-            (Some(far), Some(near)) if far != near => Reason::Farther(far, near),
-            _ => Reason::FileOrder,
+        if let (Some(far), Some(near), true) = (a.flat, b.flat, a.priority == b.priority)
+            && far > near
+        {
+            return Reason::Farther(far, near);
         }
+        // Taken by itself the upper one would go first, but it has to wait for a lens that comes after the lower.
+        let awaited = |rank: &usize| self.graph.chain(self.lenses[*rank].index, high.index, &self.ranks).is_some();
+        let by_more_than_file = |rank: &usize| awaited(rank) && !self.only_file_order(below, *rank);
+        let between = || below + 1..above;
+        match between().find(by_more_than_file).or_else(|| between().find(awaited)) {
+            Some(rank) => Reason::Waited(self.lenses[rank].name.clone()),
+            None => Reason::FileOrder,
+        }
+    }
+
+    /// Whether the lens of rank `below` is below the other for no better reason than where they stand in the file.
+    pub fn only_file_order(&self, below: usize, above: usize) -> bool {
+        self.graph.turns_round(self.lenses[below].index, self.lenses[above].index, &self.ranks)
     }
 }
 
@@ -84,25 +93,34 @@ enum Writes {
     Removal,
     /// Puts other content in place.
     Content,
-    /// A factor; products commute.
+    /// Factors of the opacity, or lighting switched off: in any order the same comes out.
     Factor,
-    /// The base colour or the other material values.
-    Base,
+    /// Material values, as `BASE_COLOR` and its like.
+    Surface(u32),
     /// The lit colour.
     Lit,
     /// Wires: their coverages multiply, but the upper wire's colour wins.
     Wires,
-    /// Switches lighting off and leaves all else.
-    Flag,
 }
 
+const BASE_COLOR: u32 = 1;
+const METALLIC: u32 = 2;
+const ROUGHNESS: u32 = 4;
+const EMISSIVE: u32 = 8;
+
 fn writes(filter: &Filter) -> Writes {
+    let bit = |written: bool, bit: u32| if written { bit } else { 0 };
     match filter {
         Filter::Erase { .. } => Writes::Removal,
         Filter::Show(_) => Writes::Content,
-        Filter::Opacity { .. } => Writes::Factor,
-        Filter::Unlit { color: None } => Writes::Flag,
-        Filter::Unlit { .. } | Filter::Material { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Base,
+        Filter::Opacity { .. } | Filter::Unlit { color: None } => Writes::Factor,
+        Filter::Unlit { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Surface(BASE_COLOR),
+        Filter::Material { color, metallic, roughness, emissive } => Writes::Surface(
+            bit(color.is_some(), BASE_COLOR)
+                | bit(metallic.is_some(), METALLIC)
+                | bit(roughness.is_some(), ROUGHNESS)
+                | bit(emissive.is_some(), EMISSIVE),
+        ),
         Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } => Writes::Lit,
         Filter::Wireframe { .. } => Writes::Wires,
     }
@@ -111,8 +129,14 @@ fn writes(filter: &Filter) -> Writes {
 fn filters_commute(f: &Filter, g: &Filter) -> bool {
     match (writes(f), writes(g)) {
         (Writes::Content, Writes::Removal) | (Writes::Removal, Writes::Content) => false,
-        (Writes::Wires, Writes::Wires) => wire_color(f) == wire_color(g),
-        (a, b) if a == b && matches!(a, Writes::Content | Writes::Base | Writes::Lit) => f == g,
+        (Writes::Wires, Writes::Wires) => match (wire_color(f), wire_color(g)) {
+            (Some(a), Some(b)) => a == b,
+            _ => true,
+        },
+        (Writes::Surface(a), Writes::Surface(b)) => a & b == 0 || f == g,
+        // Both keep the luminance that they mix towards.
+        (Writes::Lit, Writes::Lit) => f == g || matches!((f, g), (Filter::Grayscale { .. }, Filter::Grayscale { .. })),
+        (Writes::Content, Writes::Content) => f == g,
         _ => true,
     }
 }

@@ -81,11 +81,12 @@ impl PriorityGraph {
             .filter(|component| component.len() > 1)
             .flatten()
             .min()
-            .and_then(|start| self.path(start, start))
+            .and_then(|start| self.path(start, start, &|_| true))
     }
 
-    /// The shortest chain of edges upwards from one lens to another, by file order where several are as short.
-    fn path(&self, from: NodeIndex, to: NodeIndex) -> Option<Vec<EdgeIndex>> {
+    /// The shortest chain of edges upwards from one lens to another over lenses that count, by file order where
+    /// several are as short.
+    fn path(&self, from: NodeIndex, to: NodeIndex, counts: &dyn Fn(usize) -> bool) -> Option<Vec<EdgeIndex>> {
         let mut came_by: Vec<Option<EdgeIndex>> = vec![None; self.graph.node_count()];
         let mut queue = std::collections::VecDeque::from([from]);
         while let Some(node) = queue.pop_front() {
@@ -103,7 +104,7 @@ impl PriorityGraph {
                     path.reverse();
                     return Some(path);
                 }
-                if next != from && came_by[next.index()].is_none() {
+                if next != from && counts(next.index()) && came_by[next.index()].is_none() {
                     came_by[next.index()] = Some(edge);
                     queue.push_back(next);
                 }
@@ -112,9 +113,9 @@ impl PriorityGraph {
         None
     }
 
-    /// The declared chain that puts `above` above `below`, as file positions with the edge that leads to each.
-    pub fn chain(&self, below: usize, above: usize) -> Option<Vec<(usize, usize, &Declared)>> {
-        let path = self.path(NodeIndex::new(below), NodeIndex::new(above))?;
+    /// The declared chain of enabled lenses that puts `above` above `below`, as pairs of file positions.
+    pub fn chain(&self, below: usize, above: usize, ranks: &[Rank]) -> Option<Vec<(usize, usize, &Declared)>> {
+        let path = self.path(NodeIndex::new(below), NodeIndex::new(above), &|lens| ranks[lens].enabled)?;
         path.into_iter()
             .map(|edge| {
                 let (a, b) = self.graph.edge_endpoints(edge)?;
@@ -125,33 +126,51 @@ impl PriorityGraph {
 
     /// The enabled lenses, lowest first, as positions in the file. Greedy, as section 3.3 has it.
     pub fn total_order(&self, ranks: &[Rank]) -> Vec<usize> {
-        let mut done = vec![false; ranks.len()];
-        let mut order = Vec::new();
-        let ready = |done: &[bool], lens: usize| {
-            ranks[lens].enabled
-                && !done[lens]
-                && self
-                    .graph
-                    .neighbors_directed(NodeIndex::new(lens), petgraph::Direction::Incoming)
-                    .all(|below| done[below.index()] || !ranks[below.index()].enabled)
-        };
-        loop {
-            let candidates: Vec<usize> = (0..ranks.len()).filter(|lens| ready(&done, *lens)).collect();
-            let Some(first) = candidates.iter().copied().min_by_key(|lens| (ranks[*lens].priority, *lens)) else {
-                return order;
-            };
-            let same = candidates.into_iter().filter(|lens| ranks[*lens].priority == ranks[first].priority);
-            let next = match ranks[first].flat {
-                None => first,
-                Some(_) => same
-                    .filter_map(|lens| ranks[lens].flat.map(|distance| (lens, distance)))
-                    .reduce(|best, next| if next.1 > best.1 { next } else { best })
-                    .map_or(first, |(lens, _)| lens),
-            };
-            done[next] = true;
-            order.push(next);
-        }
+        self.order_by(ranks, |lens| lens)
     }
+
+    /// Whether two lenses would come the other way round if the file listed the lower one last and the upper one first.
+    pub fn turns_round(&self, below: usize, above: usize, ranks: &[Rank]) -> bool {
+        let order = self.order_by(ranks, |lens| (lens == below, lens != above, lens));
+        order.iter().find(|lens| [below, above].contains(lens)) == Some(&above)
+    }
+
+    /// The order if the lenses stood in the file as `place` sorts them.
+    fn order_by<K: Ord>(&self, ranks: &[Rank], place: impl Fn(usize) -> K) -> Vec<usize> {
+        let above = |lens: usize| {
+            let targets = self.graph.neighbors(NodeIndex::new(lens)).map(NodeIndex::index);
+            targets.filter(|lens| ranks[*lens].enabled)
+        };
+        let enabled = || (0..ranks.len()).filter(|lens| ranks[*lens].enabled);
+        // How many edges each lens still waits for; parallel edges count each.
+        let mut waits = vec![0usize; ranks.len()];
+        enabled().flat_map(above).for_each(|lens| waits[lens] += 1);
+        let mut ready: Vec<usize> = enabled().filter(|lens| waits[*lens] == 0).collect();
+        let mut order = Vec::with_capacity(ranks.len());
+        while let Some(next) = choose(&ready, ranks, &place) {
+            ready.retain(|lens| *lens != next);
+            order.push(next);
+            for lens in above(next) {
+                waits[lens] -= 1;
+                if waits[lens] == 0 {
+                    ready.push(lens);
+                }
+            }
+        }
+        order
+    }
+}
+
+/// Of the ready lenses of lowest priority the earliest; if that is flat, the farthest of those that are, then the earlier.
+fn choose<K: Ord>(ready: &[usize], ranks: &[Rank], place: &impl Fn(usize) -> K) -> Option<usize> {
+    let first = ready.iter().copied().min_by_key(|lens| (ranks[*lens].priority, place(*lens)))?;
+    if ranks[first].flat.is_none() {
+        return Some(first);
+    }
+    let same = ready.iter().copied().filter(|lens| ranks[*lens].priority == ranks[first].priority);
+    same.filter_map(|lens| Some((ranks[lens].flat?, lens)))
+        .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| place(b.1).cmp(&place(a.1))))
+        .map(|(_, lens)| lens)
 }
 
 /// The other lenses a pattern stands for.

@@ -1,0 +1,105 @@
+//! Whether two filters commute, against what the appearance functions make of random surfaces in either order.
+
+use lenspeel::appearance as wgsl;
+use lenspeel::plan::{Op, Plan, commute};
+use lenspeel::spec::Spec;
+use naga_rust_rt::{Vec3, Vec4};
+
+use crate::case::scene;
+use crate::random::Random;
+
+const FILTERS: [&str; 18] = [
+    "{ opacity = { value = 0.5 } }",
+    "{ tint = { color = \"red\", amount = 0.4 } }",
+    "{ tint = { color = \"#3040ff80\", amount = 0.7 } }",
+    "{ grayscale = { amount = 0.5 } }",
+    "{ grayscale = { amount = 0.8 } }",
+    "{ invert = { amount = 0.3 } }",
+    "{ invert = { amount = 0.7 } }",
+    "\"unlit\"",
+    "{ unlit = { color = \"orange\" } }",
+    "{ material = { color = \"teal\" } }",
+    "{ material = { metallic = 0.3 } }",
+    "{ material = { roughness = 0.2, metallic = 0.9 } }",
+    "{ material = { emissive = \"purple\" } }",
+    "{ texture = { file = \"t.png\" } }",
+    "\"normals\"",
+    "\"wireframe\"",
+    "{ wireframe = { color = \"red\", width = 2.0, fill = 0.2 } }",
+    "{ wireframe = { color = \"#0000ff80\", width = 3.0, fill = 0.4 } }",
+];
+
+fn plan() -> Plan {
+    let lens = |(i, filter): (usize, &&str)| {
+        format!(
+            "[[lens]]\nname = \"l{i}\"\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\nfilters = [{filter}]\n"
+        )
+    };
+    let lenses: String = FILTERS.iter().enumerate().map(lens).collect();
+    let text = format!("[scene]\nfile = \"a.glb\"\n{lenses}");
+    let spec = Spec::parse(&text, "filters.toml", std::path::Path::new("")).unwrap_or_else(|e| panic!("{e}"));
+    Plan::new(&spec, &scene()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn vec4(v: [f32; 4]) -> Vec4<f32> {
+    Vec4::new(v[0], v[1], v[2], v[3])
+}
+
+fn op(op: &Op) -> wgsl::Op {
+    let Op { kind, texture, flags, pad, a, b, c } = *op;
+    wgsl::Op { kind, texture, flags, pad, a: vec4(a), b: vec4(b), c: vec4(c) }
+}
+
+fn surface(random: &mut Random) -> wgsl::Surface {
+    let mut number = || random.between(0.1, 0.9) as f32;
+    wgsl::Surface {
+        position: Vec3::new(number(), number(), number()),
+        normal: Vec3::new(0.6, 0.0, 0.8),
+        view: Vec3::new(0.0, 0.0, 1.0),
+        factor: Vec4::new(number(), number(), number(), number()),
+        texel: Vec4::new(number(), number(), number(), number()),
+        metallic: number(),
+        roughness: number(),
+        emissive: Vec3::new(number(), number(), number()),
+        occlusion: 1.0,
+        alpha_mode: if number() < 0.5 { wgsl::ALPHA_BLEND.0 } else { wgsl::ALPHA_OPAQUE.0 },
+        alpha_cutoff: 0.5,
+        opacity: 1.0,
+        unlit: 0,
+    }
+}
+
+/// Colour, opacity and coverage after a stack, lowest first, under some light that minds metal and roughness.
+fn seen(stack: [&Op; 2], surface: wgsl::Surface, edge: f32) -> [f32; 5] {
+    let ops = stack.map(op);
+    let texel = Vec4::new(0.2, 0.5, 0.7, 0.8);
+    let surface = ops.iter().fold(surface, |s, op| wgsl::filter_surface(*op, s, texel));
+    let base = wgsl::base_color(surface);
+    let gloss = 0.1 * surface.roughness;
+    let dull = 1.0 - surface.metallic;
+    let lit = Vec3::new(base.x * dull + gloss, base.y * dull + gloss, base.z * dull + gloss);
+    let color = ops.iter().fold(wgsl::emitted(surface, lit), |c, op| wgsl::filter_color(*op, c));
+    let shaded = wgsl::Shaded { color, opacity: wgsl::surface_opacity(surface), coverage: 1.0 };
+    let wires = ops.iter().filter(|op| op.kind == wgsl::OP_WIREFRAME.0);
+    let s = wires.fold(shaded, |s, op| wgsl::filter_wireframe(*op, s, edge));
+    [s.color.x, s.color.y, s.color.z, s.opacity, s.coverage]
+}
+
+#[test]
+fn filters_commute_exactly_where_the_picture_is_the_same() {
+    let (plan, mut random) = (plan(), Random::new(30));
+    let filters: Vec<(usize, &str)> = FILTERS.into_iter().enumerate().collect();
+    for (above, upper) in &filters {
+        for (below, lower) in &filters[..*above] {
+            let (above, below) = (*above, *below);
+            let [a, b] = [below, above].map(|rank| &plan.ops[plan.lenses[rank].ops.start]);
+            let same = (0..50).all(|_| {
+                let (surface, edge) = (surface(&mut random), random.between(0.0, 2.5) as f32);
+                let [one, other] = [seen([a, b], surface, edge), seen([b, a], surface, edge)];
+                one.iter().zip(other).all(|(x, y)| (x - y).abs() < 1e-5)
+            });
+            let claimed = commute(&plan.lenses[below], &plan.lenses[above]);
+            assert_eq!(claimed, same, "{lower} and {upper}");
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! One graphics device for all tests of a process.
+//!
+//! Without an adapter GPU tests report as ignored; where `LENSPEEL_REQUIRE_GPU` is 1 they run and fail.
+
+use std::sync::{Mutex, OnceLock};
+
+use lenspeel::frame::Frame;
+use lenspeel::gpu::{Engine, Headless, RenderOptions, choose_named};
+
+use crate::open::Opened;
+
+/// Each engine and the name its tests carry.
+pub const ENGINES: [(Engine, &str); 2] = [(Engine::Fused, "fused"), (Engine::Peel, "peel")];
+
+/// Whether GPU tests are to be ignored here.
+pub fn is_ignored() -> bool {
+    let required = std::env::var_os("LENSPEEL_REQUIRE_GPU").is_some_and(|value| value == "1");
+    !required && choose_named(None).is_err()
+}
+
+/// The picture with its AOVs.
+pub fn render(opened: &Opened, engine: Engine) -> Result<Frame, String> {
+    let device = device()?.lock().map_err(|_| "a test that held the device has panicked")?;
+    let options = RenderOptions { engine, aovs: true };
+    device.render(&opened.scene, &opened.plan, options).map_err(|error| error.to_string())
+}
+
+fn device() -> Result<&'static Mutex<Headless>, String> {
+    static DEVICE: OnceLock<Result<Mutex<Headless>, String>> = OnceLock::new();
+    let open = || {
+        let choice = choose_named(None).map_err(|error| error.to_string())?;
+        let device = Headless::new(&choice).map_err(|error| error.to_string())?;
+        eprintln!("adapter: {}", device.reason);
+        Ok(Mutex::new(device))
+    };
+    DEVICE.get_or_init(open).as_ref().map_err(Clone::clone)
+}
