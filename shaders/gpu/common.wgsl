@@ -58,7 +58,7 @@ const MASK_OBJECT: u32 = 1u;
 const MASK_SHOWN_BY: u32 = 2u;
 const MASK_REMOVED_BY: u32 = 3u;
 
-// Twin of `records::ItemRecord`, and the item's masks.
+// An item or a chunk of its triangles: twin of `records::ItemRecord`, and the item's masks.
 struct Item {
     // Rows of the map from local space.
     row_x: vec4f,

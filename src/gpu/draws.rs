@@ -1,10 +1,10 @@
-//! The items of a plan as records and draw calls.
+//! The items of a plan as records and draw calls: one of each for every chunk of an item's triangles.
 
 use glam::{DVec2, DVec3};
 
 use super::Window;
 use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, words_of};
-use super::upload::{Range, SceneData};
+use super::upload::{Chunk, Range, SceneData};
 use crate::lens::PixelRect;
 use crate::plan::{Item, Plan};
 use crate::scene::{Aabb, MaterialRecord, NO_TEXTURE, Scene};
@@ -19,12 +19,25 @@ pub enum Culling {
     BackMirrored,
 }
 
+/// Consecutive triangles of an item with a record of their own.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    item: &'a Item,
+    range: Range,
+    first_triangle: u32,
+    triangles: u32,
+    /// World space.
+    bounds: Aabb,
+}
+
 /// One draw call.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Draw {
-    /// Into the plan's items.
-    pub item: u32,
-    pub range: Range,
+    /// Number of its part's record.
+    pub record: u32,
+    /// Into the shared indices.
+    pub indices: std::ops::Range<u32>,
+    pub base_vertex: i32,
     pub culling: Culling,
     /// Pixels of the window outside which nothing of it is seen.
     pub rect: PixelRect,
@@ -32,25 +45,52 @@ pub struct Draw {
     pub plain: bool,
 }
 
-/// The draws of what a window may show of a plan, in the order that decides ties.
-pub fn draws(scene: &Scene, plan: &Plan, window: &Window, data: &SceneData) -> Vec<Draw> {
+/// All items cut into the chunks of their primitives, in the order that decides ties.
+pub fn parts<'a>(scene: &Scene, plan: &'a Plan, data: &SceneData) -> Vec<Part<'a>> {
+    let of_item = |item: &'a Item| {
+        let (range, chunks) = data.primitive(item);
+        let world = scene.models[item.model].nodes[item.node].world_from_local;
+        let whole = chunks.len() == 1;
+        let part = move |chunk: &Chunk| Part {
+            item,
+            range,
+            first_triangle: chunk.first_triangle,
+            triangles: chunk.triangles,
+            bounds: if whole {
+                item.bounds
+            } else {
+                Aabb::from_points(chunk.bounds.corners().map(|p| world.transform_point3(p)))
+            },
+        };
+        chunks.iter().map(part).collect::<Vec<_>>()
+    };
+    plan.items.iter().flat_map(of_item).collect()
+}
+
+/// The draws of what a window may show.
+pub fn draws(scene: &Scene, plan: &Plan, window: &Window, parts: &[Part]) -> Vec<Draw> {
     (0u32..)
-        .zip(&plan.items)
-        .map(|(number, item)| Draw {
-            item: number,
-            range: data.range(item.model, item.mesh, item.primitive),
-            culling: culling(scene, plan, item),
-            rect: window.local(&seen_rect(plan, item)),
-            plain: is_plain(plan, item),
+        .zip(parts)
+        .map(|(record, part)| {
+            let first = part.range.first_index + 3 * part.first_triangle;
+            Draw {
+                record,
+                indices: first..first + 3 * part.triangles,
+                base_vertex: part.range.base_vertex as i32,
+                culling: culling(scene, plan, part.item),
+                rect: window.local(&seen_rect(plan, part)),
+                plain: is_plain(plan, part),
+            }
         })
         .filter(|draw| !draw.rect.is_empty())
         .collect()
 }
 
-/// Pixels of the whole picture outside which an item is not seen: its bounds and, for an alternate, the lenses that
+/// Pixels of the whole picture outside which a part is not seen: its bounds and, for an alternate, the lenses that
 /// show it.
-fn seen_rect(plan: &Plan, item: &Item) -> PixelRect {
-    let bounds = pixel_rect(&plan.view, item.bounds.corners());
+fn seen_rect(plan: &Plan, part: &Part) -> PixelRect {
+    let item = part.item;
+    let bounds = pixel_rect(&plan.view, part.bounds.corners());
     if !item.is_alternate() || item.shown_by.iter().any(|rank| item.object.contains(rank)) {
         return bounds;
     }
@@ -87,18 +127,19 @@ fn culling(scene: &Scene, plan: &Plan, item: &Item) -> Culling {
     if world.matrix3.determinant() < 0.0 { Culling::BackMirrored } else { Culling::Back }
 }
 
-fn is_plain(plan: &Plan, item: &Item) -> bool {
+fn is_plain(plan: &Plan, part: &Part) -> bool {
+    let item = part.item;
     if item.is_alternate() || item.translucent {
         return false;
     }
-    let depths = item.bounds.corners().map(|p| plan.view.depth(p));
+    let depths = part.bounds.corners().map(|p| plan.view.depth(p));
     let far = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
     // Boundaries that merge, and drawn depths, may be off by such a share of the depth.
     let margin = 2e-5 * depths.into_iter().map(f64::abs).fold(plan.view.far.abs(), f64::max);
     if far > plan.view.far - margin {
         return false;
     }
-    let around = Aabb { min: item.bounds.min - margin, max: item.bounds.max + margin };
+    let around = Aabb { min: part.bounds.min - margin, max: part.bounds.max + margin };
     let changes = |rank: usize| {
         let lens = &plan.lenses[rank];
         item.removed_by.contains(rank) || (lens.translucent && item.scope.contains(rank))
@@ -110,11 +151,12 @@ fn is_plain(plan: &Plan, item: &Item) -> bool {
     !(0..plan.lenses.len()).any(|rank| changes(rank) && reaches(rank))
 }
 
-/// The records of a plan's items with their masks, as bytes.
-pub fn item_bytes(scene: &Scene, plan: &Plan, data: &SceneData, words: u32) -> Vec<u8> {
+/// The records of the parts, each with its item's masks, as bytes.
+pub fn record_bytes(scene: &Scene, plan: &Plan, parts: &[Part], words: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for item in &plan.items {
-        bytes.extend_from_slice(bytemuck::bytes_of(&record(scene, plan, data, item)));
+    for part in parts {
+        let item = part.item;
+        bytes.extend_from_slice(bytemuck::bytes_of(&record(scene, plan, part)));
         for mask in [item.scope, item.object, item.shown_by, item.removed_by] {
             words_of(&mask, words).for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
         }
@@ -122,12 +164,12 @@ pub fn item_bytes(scene: &Scene, plan: &Plan, data: &SceneData, words: u32) -> V
     bytes
 }
 
-fn record(scene: &Scene, plan: &Plan, data: &SceneData, item: &Item) -> ItemRecord {
+fn record(scene: &Scene, plan: &Plan, part: &Part) -> ItemRecord {
+    let Part { item, range, .. } = *part;
     let world = scene.models[item.model].nodes[item.node].world_from_local;
     let offset = world.translation - plan.view.eye;
     let (m, n) = (world.matrix3.transpose(), world.matrix3.inverse());
     let row = |r: DVec3, w: f64| r.extend(w).as_vec4().to_array();
-    let range = data.range(item.model, item.mesh, item.primitive);
     ItemRecord {
         row_x: row(m.x_axis, offset.x),
         row_y: row(m.y_axis, offset.y),
@@ -138,10 +180,10 @@ fn record(scene: &Scene, plan: &Plan, data: &SceneData, item: &Item) -> ItemReco
         normal_z: row(n.z_axis, 0.0),
         material: item.material as u32,
         node: item.node as u32 + 1,
-        first_triangle: item.first_triangle,
+        first_triangle: item.first_triangle + part.first_triangle,
         flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 }
             | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
-        first_index: range.first_index,
+        first_index: range.first_index + 3 * part.first_triangle,
         base_vertex: range.base_vertex,
         normals: range.normals,
         tangents: range.tangents,

@@ -112,9 +112,7 @@ impl Job {
                 pass.set_pipeline(pipeline);
                 let PixelRect { min, max } = draw.rect;
                 pass.set_scissor_rect(min[0], min[1], max[0] - min[0], max[1] - min[1]);
-                let range = draw.range;
-                let indices = range.first_index..range.first_index + range.index_count;
-                pass.draw_indexed(indices, range.base_vertex as i32, draw.item..draw.item + 1);
+                pass.draw_indexed(draw.indices.clone(), draw.base_vertex, draw.record..draw.record + 1);
             }
         }
     }

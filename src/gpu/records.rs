@@ -56,7 +56,7 @@ pub struct FrameRecord {
     pub translucent: [u32; 8],
 }
 
-/// One item; its masks follow.
+/// One item or a chunk of its triangles; its masks follow.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ItemRecord {

@@ -6,7 +6,7 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::bindings;
 use super::depth_maps::DepthMaps;
-use super::draws::{self, Draw};
+use super::draws::{self, Draw, Part};
 use super::frame::{self, FrameShape, Sample};
 use super::job::{ComputeSteps, Faces, Groups, Job};
 use super::lens_data::LensData;
@@ -137,7 +137,15 @@ impl Renderer {
             .aovs
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
-        let plan_group = self.plan_group(device, scene, plan, &tiles, &depth_maps, &frames)?;
+        let parts = draws::parts(scene, plan, &self.scene);
+        let plan_group = self.plan_group(
+            device,
+            plan,
+            &tiles,
+            &depth_maps,
+            &draws::record_bytes(scene, plan, &parts, words),
+            &frames,
+        )?;
         let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
         let pipelines = self.store.get(words);
         Ok(Job {
@@ -150,7 +158,7 @@ impl Renderer {
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, options.engine, &pipelines),
+            draws: self.draws(scene, plan, &window, &parts, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
@@ -173,6 +181,7 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         window: &Window,
+        parts: &[Part],
         engine: Engine,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
@@ -181,9 +190,12 @@ impl Renderer {
             Engine::Fused => Program::Fused,
             Engine::Peel => Program::Peel,
         };
-        draws::draws(scene, plan, window, &self.scene)
+        draws::draws(scene, plan, window, parts)
             .into_iter()
-            .map(|draw| (draw, pipelines.draw(&self.store, program(&draw), draw.culling)))
+            .map(|draw| {
+                let pipeline = pipelines.draw(&self.store, program(&draw), draw.culling);
+                (draw, pipeline)
+            })
             .collect()
     }
 
@@ -217,10 +229,10 @@ impl Renderer {
     fn plan_group(
         &self,
         device: &wgpu::Device,
-        scene: &Scene,
         plan: &Plan,
         tiles: &Tiles,
         depth_maps: &DepthMaps,
+        items: &[u8],
         frames: &[u8],
     ) -> Result<wgpu::BindGroup, Error> {
         let words = set_words(plan.lenses.len());
@@ -230,7 +242,7 @@ impl Renderer {
         let storage = wgpu::BufferUsages::STORAGE;
         let buffers = [
             ("frames", frames, uniform),
-            ("items", &draws::item_bytes(scene, plan, &self.scene, words), storage),
+            ("items", items, storage),
             ("lenses", &lens_data.lenses, storage),
             ("lens data", bytemuck::cast_slice(&lens_data.vectors), storage),
             ("filters", bytemuck::cast_slice(&plan.ops), storage),

@@ -7,19 +7,44 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use super::atlas::Atlas;
 use super::records::NONE;
 use super::{Error, bindings};
-use crate::scene::{Primitive, Scene};
+use crate::plan::Item;
+use crate::scene::{Aabb, Primitive, Scene};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
     pub first_index: u32,
-    pub index_count: u32,
     pub base_vertex: u32,
     /// Floats, or [`NONE`].
     pub normals: u32,
     pub tangents: u32,
     pub colors: u32,
     pub uv: [u32; 2],
+}
+
+/// Consecutive triangles of a primitive, drawn by one call.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chunk {
+    pub first_triangle: u32,
+    pub triangles: u32,
+    /// In the node's local space.
+    pub bounds: Aabb,
+}
+
+/// So many triangles at the most are drawn by one call: of a large mesh only the part that a lens reaches then pays
+/// for fragments that find their layer. Small enough to follow a lens's outline, large enough to keep calls few.
+const CHUNK: usize = 8192;
+
+fn chunks(primitive: &Primitive) -> Vec<Chunk> {
+    let corner = |i: &u32| primitive.positions[*i as usize].as_dvec3();
+    (0u32..)
+        .zip(primitive.triangles.chunks(CHUNK))
+        .map(|(number, triangles)| Chunk {
+            first_triangle: number * CHUNK as u32,
+            triangles: triangles.len() as u32,
+            bounds: Aabb::from_points(triangles.iter().flatten().map(corner)),
+        })
+        .collect()
 }
 
 /// Model, mesh and primitive.
@@ -31,7 +56,7 @@ pub struct SceneData {
     pub positions: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub bind_group: wgpu::BindGroup,
-    ranges: HashMap<Place, Range>,
+    primitives: HashMap<Place, (Range, Vec<Chunk>)>,
 }
 
 /// The shared buffers while they are filled.
@@ -46,7 +71,6 @@ impl Lists {
     fn add(&mut self, primitive: &Primitive) -> Range {
         let range = Range {
             first_index: self.indices.len() as u32,
-            index_count: 3 * primitive.triangles.len() as u32,
             base_vertex: (self.positions.len() / 3) as u32,
             normals: self.attribute(primitive.normals.as_deref()),
             tangents: self.attribute(primitive.tangents.as_deref()),
@@ -74,11 +98,11 @@ impl SceneData {
         scene: &Scene,
     ) -> Result<Self, Error> {
         let mut lists = Lists::default();
-        let mut ranges = HashMap::new();
+        let mut primitives = HashMap::new();
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
                 for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    ranges.insert((m, i, p), lists.add(primitive));
+                    primitives.insert((m, i, p), (lists.add(primitive), chunks(primitive)));
                 }
             }
         }
@@ -106,11 +130,13 @@ impl SceneData {
                 wgpu::BindingResource::TextureView(&atlas.srgb),
             ],
         );
-        Ok(Self { positions, indices, bind_group, ranges })
+        Ok(Self { positions, indices, bind_group, primitives })
     }
 
-    pub fn range(&self, model: usize, mesh: usize, primitive: usize) -> Range {
-        self.ranges[&(model, mesh, primitive)]
+    /// Where an item's primitive lies, and its chunks.
+    pub fn primitive(&self, item: &Item) -> (Range, &[Chunk]) {
+        let (range, chunks) = &self.primitives[&(item.model, item.mesh, item.primitive)];
+        (*range, chunks)
     }
 }
 

@@ -57,9 +57,9 @@ fn add(model: &mut Model, name: &str, mut primitive: Primitive, at: DVec3, mater
     model.meshes.push(Mesh { name: name.into(), primitives: vec![primitive] });
 }
 
-/// A wavy sheet of 40 by 40 cells.
+/// A wavy sheet of 70 by 70 cells: more triangles than one call draws.
 fn sheet() -> Primitive {
-    const CELLS: u32 = 40;
+    const CELLS: u32 = 70;
     let mut primitive = Primitive::default();
     let (mut uv, mut colors) = (Vec::new(), Vec::new());
     for z in 0..=CELLS {
