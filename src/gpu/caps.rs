@@ -111,3 +111,16 @@ pub fn required_limits(adapter: &wgpu::Limits) -> wgpu::Limits {
         ..wgpu::Limits::default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_adapter_is_refused_with_a_list_of_those_there_are() {
+        let error = choose_named(Some("no adapter is named so")).expect_err("it must be refused");
+        let Error::NoAdapter { wanted, found } = error else { panic!("another error: {error}") };
+        assert_eq!(wanted, " named `no adapter is named so`");
+        assert!(!found.is_empty());
+    }
+}

@@ -7,7 +7,7 @@ use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, words_of};
 use super::upload::{Range, SceneData};
 use crate::lens::PixelRect;
 use crate::plan::{Item, Plan};
-use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
+use crate::scene::{Aabb, MaterialRecord, NO_TEXTURE, Scene};
 use crate::view::View;
 
 /// Which faces of an item are left out.
@@ -91,18 +91,21 @@ fn is_plain(plan: &Plan, item: &Item) -> bool {
     if item.is_alternate() || item.translucent {
         return false;
     }
-    let far = item.bounds.corners().into_iter().map(|p| plan.view.depth(p)).fold(f64::NEG_INFINITY, f64::max);
-    // A little less, for the rounding of the drawn depths.
-    if far > plan.view.far - 1e-5 * plan.view.far.abs() {
+    let depths = item.bounds.corners().map(|p| plan.view.depth(p));
+    let far = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    // Boundaries that merge, and drawn depths, may be off by such a share of the depth.
+    let margin = 2e-5 * depths.into_iter().map(f64::abs).fold(plan.view.far.abs(), f64::max);
+    if far > plan.view.far - margin {
         return false;
     }
+    let around = Aabb { min: item.bounds.min - margin, max: item.bounds.max + margin };
     let changes = |rank: usize| {
         let lens = &plan.lenses[rank];
         item.removed_by.contains(rank) || (lens.translucent && item.scope.contains(rank))
     };
     let reaches = |rank: usize| {
         item.object.contains(rank)
-            || (plan.by_pixel.contains(rank) && plan.lenses[rank].volume.bounds().overlaps(&item.bounds))
+            || (plan.by_pixel.contains(rank) && plan.lenses[rank].volume.bounds().overlaps(&around))
     };
     !(0..plan.lenses.len()).any(|rank| changes(rank) && reaches(rank))
 }

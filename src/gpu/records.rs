@@ -74,7 +74,7 @@ pub struct ItemRecord {
     pub flags: u32,
     pub first_index: u32,
     pub base_vertex: u32,
-    /// Where each attribute starts, in floats, or [`NONE`].
+    /// Where each attribute starts, in floats, or `u32::MAX`.
     pub normals: u32,
     pub tangents: u32,
     pub colors: u32,
