@@ -171,7 +171,8 @@ impl<'a> Tracer<'a> {
         let shift = if self.plan.view.is_perspective() { 0.0 } else { self.plan.view.near };
         let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
         let origin = ray.at(shift).as_vec3();
-        let direction = ray.direction.as_vec3();
+        // The BVH takes -0 for a negative direction in one place and for a positive one in another: no -0 here.
+        let direction = ray.direction.as_vec3() + Vec3::ZERO;
         let sheared = ShearedRay::new(origin, direction);
         let mut walk_ray = BvhRay::new(origin.into(), direction.into(), 0.0, far - shift as f32);
         if let Some(known) = &*opaque {

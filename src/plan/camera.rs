@@ -11,6 +11,8 @@ use crate::view::{Projection, View};
 /// Where the default camera looks from, seen from the centre of the bounds.
 const DEFAULT_DIRECTION: DVec3 = DVec3::new(1.0, 0.7, 1.3);
 const DEFAULT_FOV_Y: f64 = 45.0;
+/// Fitted planes keep at least this share of the depth away from what they must not cut.
+const LEAST_MARGIN: f64 = 1e-4;
 /// A fitted near plane is never closer than this share of the far one.
 const NEAR_SHARE: f64 = 1e-6;
 
@@ -154,7 +156,9 @@ fn fitted(view: &View, scene: &Scene, volumes: &[Option<Volume>]) -> (f64, f64) 
     if low > high {
         (low, high) = (0.0, 1.0);
     }
-    let margin = 0.01 * (high - low).max(1e-6 * high.abs()).max(1e-9);
+    // Depths are f32 in the backends: what is flat and faces the camera must not fall out by rounding.
+    let rounding = LEAST_MARGIN * low.abs().max(high.abs()).max(1e-5);
+    let margin = (0.01 * (high - low)).max(rounding);
     if !view.is_perspective() {
         return (low - margin, high + margin);
     }

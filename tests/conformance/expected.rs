@@ -9,7 +9,7 @@ use lenspeel::plan::{LensSet, Plan};
 use serde_json::Value;
 
 use crate::compare::{Reference, Rules};
-use crate::edges::{Mask, changes, depth_jumps, either};
+use crate::edges::{JUMP, Mask, STEP, changes, depth_jumps, either};
 use crate::npy;
 
 /// Bits of `doubt.png`.
@@ -58,7 +58,8 @@ fn reference(frame: Frame, doubt: &[u8], known: &[u8]) -> Result<Reference, Stri
         return Err("the expected maps have different sizes".into());
     }
     let visible = either(&changes(frame.size, &aovs.sets), &changes(frame.size, &aovs.nodes));
-    let edges = either(&visible, &depth_jumps(frame.size, &aovs.depth));
+    let edges = either(&visible, &depth_jumps(frame.size, &aovs.depth, JUMP));
+    let steps = either(&edges, &depth_jumps(frame.size, &aovs.depth, STEP));
     let exempt = |bits: u8| -> Mask { doubt.iter().map(|doubt| doubt & bits != 0).collect() };
     let unknown: Mask = known.iter().map(|known| *known == 0).collect();
     let by_map = |near_edge: &Mask, bits| Rules { near_edge: near_edge.clone(), exempt: exempt(bits) };
@@ -66,7 +67,7 @@ fn reference(frame: Frame, doubt: &[u8], known: &[u8]) -> Result<Reference, Stri
         region: by_map(&edges, REGION | VISIBILITY),
         node: by_map(&edges, NODE | VISIBILITY),
         layers: by_map(&changes(frame.size, &aovs.layers), LAYERS),
-        depth: by_map(&edges, NODE | VISIBILITY),
+        depth: by_map(&steps, NODE | VISIBILITY),
         color: Rules {
             near_edge: either(&edges, &changes(frame.size, &frame.pixels)),
             exempt: either(&unknown, &exempt(REGION | NODE | VISIBILITY)),

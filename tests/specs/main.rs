@@ -38,12 +38,9 @@ fn main() {
 }
 
 fn trials_of(entry: Arc<Entry>) -> Vec<Trial> {
-    let mut trials = vec![
-        trial(&entry, "plan", |entry| snapshot::plan(entry)),
-        trial(&entry, "regions", |entry| snapshot::regions(entry)),
-    ];
+    let mut trials = vec![trial(&entry, "plan", snapshot::plan), trial(&entry, "regions", snapshot::regions)];
     if entry.kind == Kind::Property {
-        trials.push(trial(&entry, "golden", |entry| golden::check(entry)));
+        trials.push(trial(&entry, "golden", golden::check));
     }
     #[cfg(feature = "gpu")]
     trials.extend(gpu::ENGINES.map(|(engine, name)| {

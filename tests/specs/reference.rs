@@ -6,7 +6,7 @@ use lenspeel::frame::{Aovs, Frame};
 use lenspeel::plan::LensSet;
 
 use crate::compare::{Reference, Rules};
-use crate::edges::{Mask, around, changes, depth_jumps, either};
+use crate::edges::{JUMP, Mask, STEP, around, changes, depth_jumps, either};
 use crate::open::Opened;
 
 /// Normals of one surface that turn by more than this from pixel to pixel meet in a crease; radians.
@@ -24,7 +24,7 @@ pub fn of(opened: &Opened) -> Reference {
         region: rules(&maps),
         node: rules(&maps),
         layers: rules(&maps),
-        depth: rules(&maps),
+        depth: rules(&either(&maps, &depth_jumps(frame.size, &aovs.depth, STEP))),
         color: rules(&colors),
         frame,
     }
@@ -34,7 +34,7 @@ pub fn of(opened: &Opened) -> Reference {
 fn map_edges(frame: &Frame, aovs: &Aovs) -> Mask {
     let visible = either(&changes(frame.size, &aovs.sets), &changes(frame.size, &aovs.nodes));
     let lenses = changes(frame.size, &aovs.layers);
-    either(&either(&visible, &lenses), &depth_jumps(frame.size, &aovs.depth))
+    either(&either(&visible, &lenses), &depth_jumps(frame.size, &aovs.depth, JUMP))
 }
 
 /// Edges within one node, where two of its faces meet.

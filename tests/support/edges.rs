@@ -5,8 +5,10 @@ use std::ops::Range;
 /// One flag a pixel.
 pub type Mask = Vec<bool>;
 
-/// A depth that bends by more than this share of itself over one pixel is a jump.
-const JUMP: f64 = 0.02;
+/// A depth that bends by more than this share of itself over one pixel is a jump, an edge of the picture.
+pub const JUMP: f64 = 0.02;
+/// Smaller steps are edges of the depth map itself: ten times what depths may differ by.
+pub const STEP: f64 = 1e-3;
 /// Stands for "nothing there" among depths.
 const NOWHERE: f64 = 1e9;
 
@@ -20,14 +22,14 @@ pub fn changes<T: PartialEq>(size: [u32; 2], values: &[T]) -> Mask {
     around(size, |at, other| values[at] != values[other])
 }
 
-/// Pixels within one pixel of a jump in depth. On a plane depth (orthographic) or its inverse (perspective) is linear
+/// Pixels within one pixel of a place where depth bends by more than a share of itself. On a plane depth (orthographic) or its inverse (perspective) is linear
 /// over the image, so one of the two second differences vanishes.
-pub fn depth_jumps(size: [u32; 2], depth: &[f32]) -> Mask {
+pub fn depth_jumps(size: [u32; 2], depth: &[f32], least: f64) -> Mask {
     let [width, height] = size.map(|side| side as usize);
     let depth: Vec<f64> = depth.iter().map(|d| if d.is_finite() { f64::from(*d) } else { NOWHERE }).collect();
     let bends = |before: f64, here: f64, after: f64| {
         let share = |a: f64, b: f64, c: f64| (a - 2.0 * b + c).abs() / b.abs();
-        share(before, here, after).min(share(1.0 / before, 1.0 / here, 1.0 / after)) > JUMP
+        share(before, here, after).min(share(1.0 / before, 1.0 / here, 1.0 / after)) > least
     };
     let jumps: Mask = (0..width * height)
         .map(|at| {

@@ -1,0 +1,73 @@
+//! `info`, `init`, `filters`, `schema`.
+
+use crate::call::{Folder, call, project};
+
+#[test]
+fn info_describes_a_model() {
+    let out = call(&["info", &project("lens-specs/models/ball-in-box.glb")]).good();
+    for part in ["972 triangles shown", "bounds (-1 -1 -1) to (1 1 1)", "ball  mesh 1 ball  960 triangles", "materials"]
+    {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    let report = call(&["info", &project("Cargo.toml")]).refused();
+    assert!(report.contains("Cargo.toml"), "{report}");
+}
+
+#[test]
+fn what_init_writes_can_be_checked_and_rendered() {
+    for model in ["ball-in-box", "cubes", "gearbox", "hand", "panes", "steps", "textured-quad", "two-rooms"] {
+        let folder = Folder::new(&format!("init-{model}"));
+        let (spec, picture) = (folder.file("starter.toml"), folder.file("starter.png"));
+        call(&["init", &project(&format!("lens-specs/models/{model}.glb")), "-o", &spec]).good();
+        let out = call(&["check", &spec, "--strict"]).good();
+        assert!(out.contains("good: 2 lenses, 3 regions, 0 warnings"), "{model}: {out}");
+        call(&["render", &spec, "-o", &picture, "--size", "32x18", "--samples", "1", "--backend", "cpu"]).good();
+        assert_eq!(folder.names(), ["starter.png", "starter.toml"]);
+    }
+}
+
+#[test]
+fn init_replaces_nothing() {
+    let folder = Folder::new("init-again");
+    let model = project("lens-specs/models/cubes.glb");
+    let spec = folder.write("mine.toml", "# mine\n");
+    let report = call(&["init", &model, "-o", &spec]).refused();
+    assert!(report.contains("mine.toml is there already"), "{report}");
+    assert_eq!(folder.read("mine.toml"), b"# mine\n");
+}
+
+#[test]
+fn init_without_a_file_prints_the_spec() {
+    let out = call(&["init", &project("lens-specs/models/cubes.glb")]).good();
+    let table: toml::Table = out.parse().expect("TOML");
+    assert_eq!(table["lens"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn filters_lists_what_is_built() {
+    let out = call(&["filters"]).good();
+    for name in [
+        "wireframe",
+        "erase",
+        "show",
+        "texture",
+        "tint",
+        "grayscale",
+        "invert",
+        "unlit",
+        "opacity",
+        "normals",
+        "material",
+    ] {
+        assert!(out.lines().any(|line| line.trim_start().starts_with(name)), "{name}: {out}");
+    }
+}
+
+#[test]
+fn schema_is_a_json_schema_of_the_format() {
+    let schema: serde_json::Value = serde_json::from_str(&call(&["schema"]).good()).expect("JSON");
+    assert!(schema["$schema"].as_str().is_some_and(|id| id.contains("json-schema.org")), "{schema}");
+    for table in ["scene", "camera", "image", "light", "lens", "overlap"] {
+        assert!(schema["properties"].get(table).is_some(), "{table}");
+    }
+}
