@@ -18,7 +18,7 @@ pub struct Aovs {
     /// The lenses around the visible fragment (S); `None` where nothing is.
     pub sets: Vec<Option<LensSet>>,
     /// Node index in its file plus one; 0 where nothing is.
-    pub nodes: Vec<u16>,
+    pub nodes: Vec<u32>,
     /// Along the forward axis, scene units; infinite where nothing is.
     pub depth: Vec<f32>,
     /// World space; zero where nothing is.

@@ -33,6 +33,7 @@ fn filter_surface(op: Op, before: Surface, texel: vec4f) -> Surface {
             }
             if (op.flags & MATERIAL_EMISSIVE) != 0u {
                 s.emissive = op.c.rgb;
+                s.opacity = s.opacity * op.c.a;
             }
         }
         case OP_TEXTURE: {

@@ -11,6 +11,7 @@ mod render;
 mod report;
 mod schema;
 mod stages;
+mod targets;
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;

@@ -1,5 +1,7 @@
 //! `lenspeel render`.
 
+use clap::ValueEnum;
+
 use super::args::RenderArgs;
 use super::backend;
 use super::stages::Stages;
@@ -13,6 +15,7 @@ use crate::spec::Spec;
 pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     let mut stages = Stages::default();
     let mut spec = stages.time("spec", || Spec::load(&args.spec))?;
+    super::targets::check(args)?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
     spec.image.samples = args.samples.unwrap_or(spec.image.samples);
     let scene = stages.time("scene", || Scene::open(&spec))?;
@@ -28,7 +31,7 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
         eprint!("{}", stages.text());
     }
     match &args.stats {
-        Some(path) => write_whole(path, stats(&plan, &choice, &stages).as_bytes()),
+        Some(path) => write_whole(path, stats(args, &plan, &choice, &stages).as_bytes()),
         None => Ok(()),
     }
 }
@@ -43,9 +46,13 @@ fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<(), InputE
     Ok(())
 }
 
-fn stats(plan: &Plan, backend: &str, stages: &Stages) -> String {
+fn stats(args: &RenderArgs, plan: &Plan, choice: &str, stages: &Stages) -> String {
+    let engine = args.engine.and_then(|e| e.to_possible_value()).map_or("fused".into(), |e| e.get_name().to_string());
+    let (backend, reason) = choice.split_once(": ").unwrap_or((choice, ""));
     let stats = serde_json::json!({
         "backend": backend,
+        "reason": reason,
+        "engine": (backend == "gpu").then_some(engine),
         "size": plan.view.size,
         "samples": plan.samples,
         "triangles": plan.items.iter().map(|item| u64::from(item.triangles)).sum::<u64>(),

@@ -1,6 +1,6 @@
 //! Lens surfaces along a ray.
 
-use super::convert::{a4, d3, g4, glass as record, v3};
+use super::convert::{a4, d3, g4, glass as record};
 use crate::appearance as wgsl;
 use crate::lens::{Crossing, Span};
 use crate::plan::{Lens, Plan};
@@ -39,7 +39,7 @@ pub fn find(plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay, hit
 /// Pixels from the lens's outline in the picture.
 fn silhouette(plan: &Plan, lens: &Lens, ray: &Ray, span: &Span, pixel: &wgsl::PixelRay) -> f32 {
     if lens.volume.is_flat {
-        return flat_silhouette(lens, pixel);
+        return flat_silhouette(plan, lens, pixel);
     }
     // Around the eye a volume has no outline.
     if plan.view.is_perspective() && span.entry.t <= 0.0 {
@@ -58,12 +58,13 @@ fn silhouette(plan: &Plan, lens: &Lens, ray: &Ray, span: &Span, pixel: &wgsl::Pi
 }
 
 /// A flat lens is outlined by its polygon.
-fn flat_silhouette(lens: &Lens, pixel: &wgsl::PixelRay) -> f32 {
+fn flat_silhouette(plan: &Plan, lens: &Lens, pixel: &wgsl::PixelRay) -> f32 {
     let corners = &lens.volume.hull;
+    let around_eye = |p: glam::DVec3| d3(p - plan.view.eye);
     (0..corners.len())
         .map(|i| {
             let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
-            wgsl::edge_distance(*pixel, v3(a.as_vec3()), v3(b.as_vec3()))
+            wgsl::edge_distance(*pixel, around_eye(a), around_eye(b))
         })
         .fold(f32::INFINITY, f32::min)
 }

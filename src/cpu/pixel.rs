@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4};
 use obvhs::ray::Ray as BvhRay;
 
 use super::convert::d3;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Reach};
 use super::glass::{self, GlassHit};
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
@@ -52,6 +52,7 @@ pub struct Tracer<'a> {
     plan: &'a Plan,
     geometry: &'a [Geometry],
     shader: Shader<'a>,
+    reach: Reach,
     /// Lenses whose filters may make a fragment translucent.
     translucent: LensSet,
     /// For each content but the scene: the lenses that show it.
@@ -80,6 +81,7 @@ impl<'a> Tracer<'a> {
             plan,
             geometry,
             shader: Shader::new(scene, plan),
+            reach: Reach::new(&plan.view),
             translucent: (0..plan.lenses.len()).filter(|rank| plan.lenses[*rank].translucent).collect(),
             shown_by: (0..plan.contents.len()).map(shown).collect(),
         }
@@ -167,21 +169,21 @@ impl<'a> Tracer<'a> {
     }
 
     fn trace_content(&self, geometry: &Geometry, ray: &Ray, scratch: &mut Scratch, opaque: &mut Opaque) {
-        // Rays of an orthographic camera start at the near plane: depths there may be negative.
-        let shift = if self.plan.view.is_perspective() { 0.0 } else { self.plan.view.near };
+        let Reach { start, scale } = self.reach;
         let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
-        let origin = ray.at(shift).as_vec3();
+        let traced = |depth: f64| ((depth - start) * scale) as f32;
+        let origin = ((ray.at(start) - self.plan.view.eye) * scale).as_vec3();
         // The BVH takes -0 for a negative direction in one place and for a positive one in another: no -0 here.
         let direction = ray.direction.as_vec3() + Vec3::ZERO;
         let sheared = ShearedRay::new(origin, direction);
-        let mut walk_ray = BvhRay::new(origin.into(), direction.into(), 0.0, far - shift as f32);
+        let mut walk_ray = BvhRay::new(origin.into(), direction.into(), 0.0, traced(self.plan.view.far));
         if let Some(known) = &*opaque {
-            walk_ray.tmax = known.depth - shift as f32;
+            walk_ray.tmax = traced(f64::from(known.depth)).next_up();
         }
         let mut visit = |slot: u32, end: &mut f32| {
             let triangle = &geometry.triangles[slot as usize];
             let Some(hit) = sheared.hit(&triangle.corners) else { return };
-            let depth = hit.t + shift as f32;
+            let depth = (f64::from(hit.t) / scale + start) as f32;
             if hit.t > *end || depth < near || depth > far || self.is_culled(triangle, direction) {
                 return;
             }
@@ -231,7 +233,7 @@ impl<'a> Tracer<'a> {
         (fragment.depth, self.plan.items[fragment.item as usize].first_triangle + fragment.triangle)
     }
 
-    /// The ray of a point of the picture, for intervals and for shading.
+    /// The ray of a point of the picture: in the world for intervals, around the eye for shading.
     fn rays(&self, x: f64, y: f64) -> (Ray, wgsl::PixelRay) {
         let view = &self.plan.view;
         let ray = view.ray(x, y);
@@ -240,7 +242,7 @@ impl<'a> Tracer<'a> {
         let (origin_steps, direction_steps) =
             if view.is_perspective() { ((none, none), (right, down)) } else { ((right, down), (none, none)) };
         let pixel = wgsl::PixelRay {
-            origin: d3(ray.origin),
+            origin: d3(ray.origin - view.eye),
             direction: d3(ray.direction),
             origin_dx: d3(origin_steps.0),
             origin_dy: d3(origin_steps.1),

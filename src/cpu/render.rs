@@ -114,7 +114,7 @@ impl<'a> Renderer<'a> {
         maps.layers[at] = center.layers;
         let Some(visible) = &center.visible else { return };
         maps.sets[at] = Some(visible.fragment.set);
-        maps.nodes[at] = self.plan.items[visible.fragment.item as usize].node as u16 + 1;
+        maps.nodes[at] = self.plan.items[visible.fragment.item as usize].node as u32 + 1;
         maps.depth[at] = visible.fragment.depth;
         maps.normals[at] = visible.normal.to_array();
     }

@@ -16,10 +16,12 @@ pub struct Shader<'a> {
     ops: Vec<wgsl::Op>,
     lights: Vec<wgsl::Light>,
     up: Vec3,
+    /// Origin of the plan's texture space, around the eye.
+    texture_origin: Vec3,
     items: Vec<ItemTransform>,
 }
 
-/// World from an item's local space for points, and for normals.
+/// From an item's local space to the world's axes around the eye: for points, and for normals.
 struct ItemTransform {
     point: glam::Affine3A,
     normal: glam::Mat3,
@@ -34,11 +36,11 @@ pub struct Shaded {
     pub normal: Vec3,
 }
 
-/// A triangle of an item with its corners in the world.
+/// A triangle of an item with its corners around the eye, along the world's axes.
 struct Corners<'a> {
     primitive: &'a Primitive,
     indices: [usize; 3],
-    world: [Vec3; 3],
+    around: [Vec3; 3],
 }
 
 impl Corners<'_> {
@@ -65,15 +67,17 @@ impl<'a> Shader<'a> {
             .items
             .iter()
             .map(|item| {
-                let world = scene.models[item.model].nodes[item.node].world_from_local;
-                ItemTransform { point: world.as_affine3a(), normal: world.matrix3.inverse().transpose().as_mat3() }
+                let mut around = scene.models[item.model].nodes[item.node].world_from_local;
+                around.translation -= plan.view.eye;
+                ItemTransform { point: around.as_affine3a(), normal: around.matrix3.inverse().transpose().as_mat3() }
             })
             .collect();
         Self {
             scene,
             plan,
             ops: plan.ops.iter().map(op).collect(),
-            lights: plan.lighting.lights.iter().map(light).collect(),
+            lights: plan.lighting.lights.iter().map(|l| light(&l.around(plan.view.eye))).collect(),
+            texture_origin: (plan.texture_space.origin.as_dvec3() - plan.view.eye).as_vec3(),
             up: plan.lighting.up,
             items,
         }
@@ -83,10 +87,10 @@ impl<'a> Shader<'a> {
     pub fn shade(&self, fragment: &Fragment, ray: &wgsl::PixelRay) -> Shaded {
         let item = &self.plan.items[fragment.item as usize];
         let corners = self.corners(item, fragment);
-        let [a, b, c] = corners.world.map(v3);
+        let [a, b, c] = corners.around.map(v3);
         let weights = fragment.weights;
         let geometric =
-            (corners.world[1] - corners.world[0]).cross(corners.world[2] - corners.world[0]).normalize_or_zero();
+            (corners.around[1] - corners.around[0]).cross(corners.around[2] - corners.around[0]).normalize_or_zero();
         let view = -g3(ray.direction).normalize();
         let mut surface = self.surface(item, fragment, &corners, geometric, view, ray);
         let normal = g3(surface.normal);
@@ -120,9 +124,9 @@ impl<'a> Shader<'a> {
         let model = &self.scene.models[item.model];
         let primitive = &model.meshes[item.mesh].primitives[item.primitive];
         let indices = primitive.triangles[fragment.triangle as usize].map(|i| i as usize);
-        let to_world = &self.items[fragment.item as usize].point;
-        let world = indices.map(|i| to_world.transform_point3(primitive.positions[i]));
-        Corners { primitive, indices, world }
+        let to_eye = &self.items[fragment.item as usize].point;
+        let around = indices.map(|i| to_eye.transform_point3(primitive.positions[i]));
+        Corners { primitive, indices, around }
     }
 
     /// The surface as its material has it.
@@ -147,7 +151,7 @@ impl<'a> Shader<'a> {
         let occlusion = texel(&material.occlusion_texture).x;
         let [er, eg, eb] = material.emissive;
         wgsl::Surface {
-            position: v3(corners.world[0] * weights.x + corners.world[1] * weights.y + corners.world[2] * weights.z),
+            position: v3(corners.around[0] * weights.x + corners.around[1] * weights.y + corners.around[2] * weights.z),
             normal: v3(self.normal(material, fragment, corners, geometric, view, ray)),
             view: v3(view),
             factor: v4(factor),
@@ -186,7 +190,7 @@ impl<'a> Shader<'a> {
                     transform.point.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w.signum())
                 }
                 None => {
-                    let [a, b, c] = corners.world.map(v3);
+                    let [a, b, c] = corners.around.map(v3);
                     let [ua, ub, uc] = self.slot_uv(slot, corners).map(v2);
                     g4(wgsl::triangle_tangent(a, b, c, ua, ub, uc, v3(normal)))
                 }
@@ -213,7 +217,7 @@ impl<'a> Shader<'a> {
     }
 
     fn sample(&self, index: u32, uv: [Vec2; 3], corners: &Corners, weights: Vec3, ray: &wgsl::PixelRay) -> Vec4 {
-        let [a, b, c] = corners.world.map(v3);
+        let [a, b, c] = corners.around.map(v3);
         let [ua, ub, uc] = uv;
         let size = texture::size(&self.scene.textures, index);
         let footprint = wgsl::uv_footprint(*ray, a, b, c, v2(ua), v2(ub), v2(uc), v2(size));
@@ -237,7 +241,7 @@ impl<'a> Shader<'a> {
         }
         let space = &self.plan.texture_space;
         let project =
-            |p: Vec3| g2(wgsl::projected_uv(op.flags, v3((p - space.origin) * space.scale), v3(normal))) * scale;
+            |p: Vec3| g2(wgsl::projected_uv(op.flags, v3((p - self.texture_origin) * space.scale), v3(normal))) * scale;
         let size = texture::size(&self.scene.textures, op.texture);
         // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
         let span = g2(wgsl::position_footprint(*ray, v3(position), v3(normal)));

@@ -21,7 +21,7 @@ pub fn store(maps: &mut Aovs, width: u32, window: &Window, words: u32, bytes: &[
         let at = ((window.min[1] + y) * width + window.min[0] + x) as usize;
         maps.layers[at] = pixel[0] as u16;
         if pixel[6] != 0 {
-            maps.nodes[at] = pixel[1] as u16;
+            maps.nodes[at] = pixel[1];
             maps.depth[at] = f32::from_bits(pixel[2]);
             maps.normals[at] = [pixel[3], pixel[4], pixel[5]].map(f32::from_bits);
             maps.sets[at] = Some(LensSet::from_words(&pixel[FIXED_WORDS as usize..]));

@@ -237,7 +237,7 @@ impl Renderer {
     ) -> Result<wgpu::BindGroup, Error> {
         let words = set_words(plan.lenses.len());
         let lens_data = LensData::new(plan, words, depth_maps);
-        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| around_eye(light, plan)).collect();
+        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let uniform = wgpu::BufferUsages::UNIFORM;
         let storage = wgpu::BufferUsages::STORAGE;
         let buffers = [
@@ -334,13 +334,6 @@ fn frame_bytes(shape: &FrameShape, samples: &[Sample], passes: u32, stride: u32)
         }
     }
     bytes
-}
-
-/// A light placed relative to the eye, as everything on the device.
-fn around_eye(light: &LightRecord, plan: &Plan) -> LightRecord {
-    let [x, y, z, w] = light.position;
-    let offset = glam::Vec3::new(x, y, z).as_dvec3() - plan.view.eye * f64::from(w);
-    LightRecord { position: offset.as_vec3().extend(w).to_array(), ..*light }
 }
 
 /// A buffer of the plan, never smaller than any record.

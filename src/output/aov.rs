@@ -31,16 +31,27 @@ impl Aov {
         ("node", Aov::Node),
         ("layers", Aov::Layers),
     ];
+
+    pub fn name(self) -> &'static str {
+        Self::ALL.into_iter().find(|(_, aov)| *aov == self).map_or("", |(name, _)| name)
+    }
 }
 
 /// Writes one map; for regions its table, too, with the extension `.json`.
 pub fn write_aov(path: &Path, aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<(), InputError> {
     let size = plan.view.size;
     match aov {
-        Aov::Node => write_gray16(path, &aovs.nodes, size),
+        Aov::Node => {
+            let narrow: Result<Vec<u16>, _> = aovs.nodes.iter().map(|node| u16::try_from(*node)).collect();
+            let nodes = narrow.map_err(|_| {
+                InputError::new("the picture shows a node of number 65535 or more, and a node map has 16 bits a pixel")
+                    .help("leave out `--aov node`")
+            })?;
+            write_gray16(path, &nodes, size)
+        }
         Aov::Layers => write_gray16(path, &aovs.layers, size),
         Aov::Region => {
-            let map = RegionMap::new(plan, aovs);
+            let map = RegionMap::new(plan, aovs)?;
             write_gray16(path, &map.ids, size)?;
             let table = serde_json::to_string_pretty(&map.json()).unwrap_or_default();
             write_whole(&path.with_extension("json"), (table + "\n").as_bytes())

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::InputError;
 use crate::frame::Aovs;
 use crate::plan::{LensSet, Plan, filter_name, survivors};
 
@@ -28,9 +29,15 @@ pub struct RegionMap {
 }
 
 impl RegionMap {
-    /// Numbers the regions of a picture in the order of their sorted lens names.
-    pub fn new(plan: &Plan, aovs: &Aovs) -> Self {
+    /// Numbers the regions of a picture in the order of their sorted lens names; an error where 16 bits do not
+    /// tell them apart.
+    pub fn new(plan: &Plan, aovs: &Aovs) -> Result<Self, InputError> {
         let found: BTreeSet<LensSet> = aovs.sets.iter().flatten().copied().filter(|s| !s.is_empty()).collect();
+        if found.len() >= usize::from(NOTHING) {
+            let message =
+                format!("the picture has {} regions, and a region map tells {} apart", found.len(), NOTHING - 1);
+            return Err(InputError::new(message).help("leave out `--aov region`"));
+        }
         let mut named: Vec<(Vec<&str>, LensSet)> = found.into_iter().map(|set| (plan.names(set), set)).collect();
         named.sort();
         let regions: Vec<FoundRegion> = (1u16..)
@@ -47,7 +54,7 @@ impl RegionMap {
             None => NOTHING,
             Some(set) => number.get(set).copied().unwrap_or(0),
         };
-        Self { ids: aovs.sets.iter().map(id).collect(), regions }
+        Ok(Self { ids: aovs.sets.iter().map(id).collect(), regions })
     }
 
     /// The table beside the map.

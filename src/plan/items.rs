@@ -161,14 +161,15 @@ fn content(what: &ShowWhat, scene: &Scene) -> Content {
 /// The scene, then what the enabled lenses show: alternates in their order, then node lists as they come.
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
     let mut contents = vec![Content { model: 0, nodes: None }];
-    let shows = || spec.lenses.iter().filter(|l| l.enabled).flat_map(|l| &l.filters);
     let mut shown: Vec<Content> = Vec::new();
-    for filter in shows() {
+    for (lens, filter) in spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(move |filter| (lens, filter))) {
         let Filter::Show(what) = &filter.value else { continue };
         if let ShowWhat::Nodes(patterns) = what {
             check_shown_nodes(spec, &scene.models[0], patterns)?;
         }
-        shown.push(content(what, scene));
+        if lens.enabled {
+            shown.push(content(what, scene));
+        }
     }
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
     for content in shown {

@@ -61,6 +61,7 @@ impl From<Glass> for GlassRecord {
 
 /// The volume of every lens of the file, disabled ones checked like the others but left out.
 pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Option<Volume>>, InputError> {
+    // The reader has counted them with a better place to point at; a spec may also be built in code.
     let enabled = spec.lenses.iter().filter(|l| l.enabled).count();
     if enabled > MAX_LENSES {
         let message = format!("{enabled} lenses are enabled, and at most {MAX_LENSES} can be");

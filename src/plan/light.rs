@@ -25,6 +25,15 @@ pub struct LightRecord {
     pub color: [f32; 4],
 }
 
+impl LightRecord {
+    /// The light in a space whose origin is the eye, where single precision holds near the viewer.
+    pub fn around(&self, eye: glam::DVec3) -> Self {
+        let [x, y, z, w] = self.position;
+        let offset = Vec3::new(x, y, z).as_dvec3() - eye * f64::from(w);
+        Self { position: offset.as_vec3().extend(w).to_array(), ..*self }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lighting {
     pub ambient: f32,

@@ -74,7 +74,10 @@ impl Op {
             k if k == wgsl::OP_WIREFRAME.0 => true,
             k if k == wgsl::OP_TINT.0 => color_alpha,
             k if k == wgsl::OP_UNLIT.0 => self.flags & wgsl::HAS_COLOR.0 != 0 && color_alpha,
-            k if k == wgsl::OP_MATERIAL.0 => self.flags & wgsl::MATERIAL_COLOR.0 != 0 && color_alpha,
+            k if k == wgsl::OP_MATERIAL.0 => {
+                (self.flags & wgsl::MATERIAL_COLOR.0 != 0 && color_alpha)
+                    || (self.flags & wgsl::MATERIAL_EMISSIVE.0 != 0 && self.c[3] < 1.0)
+            }
             _ => false,
         }
     }

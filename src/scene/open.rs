@@ -31,7 +31,14 @@ impl Scene {
             Model::load(path, choice).map_err(|e| e.or_at(&spec.source, span.clone()))
         };
         let file = &spec.scene.file;
-        let mut models = vec![load(&file.value, choice.map(|c| &c.value), &file.span)?];
+        let first = load(&file.value, choice.map(|c| &c.value), &file.span);
+        let mut models = vec![first.or_else(|error| match choice {
+            // Where the file opens without the choice, the choice is what is wrong.
+            Some(choice) if Model::load(&file.value, None).is_ok() => {
+                Err(InputError { labels: vec![(choice.span.clone(), "here".into())], ..error })
+            }
+            _ => Err(error),
+        })?];
         for (_, path) in &spec.scene.alternates {
             models.push(load(&path.value, None, &path.span)?);
         }

@@ -58,7 +58,7 @@ fn check_order(opened: &Opened, expected: &Expected) -> Result<(), String> {
 /// The stacks of all regions that both have found.
 fn check_stacks(opened: &Opened, frame: &Frame, expected: &Expected) -> Result<(), String> {
     let aovs = frame.aovs.as_ref().ok_or("the picture has no AOVs")?;
-    for region in RegionMap::new(&opened.plan, aovs).regions {
+    for region in RegionMap::new(&opened.plan, aovs).map_err(|e| e.to_string())?.regions {
         let got: Vec<(String, String)> =
             region.stack.into_iter().map(|(lens, filter)| (lens, filter.to_string())).collect();
         if let Some(want) = expected.stacks.get(&region.set).filter(|want| **want != got) {

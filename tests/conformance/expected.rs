@@ -37,7 +37,7 @@ impl Expected {
         let table = Table::read(&folder.join("region.json"), plan)?;
         let aovs = Aovs {
             sets: ids.iter().map(|id| table.set(*id)).collect::<Result<_, _>>()?,
-            nodes: gray16(&folder.join("node.png"))?.1,
+            nodes: gray16(&folder.join("node.png"))?.1.into_iter().map(u32::from).collect(),
             depth: npy::read_f32(&folder.join("depth.npy"), size)?,
             normals: Vec::new(),
             layers: gray16(&folder.join("layers.png"))?.1,

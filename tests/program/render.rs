@@ -139,7 +139,34 @@ fn what_cannot_be_written_leaves_nothing_behind() {
     for target in ["missing/picture.png", "taken.png"] {
         let target = folder.file(target);
         let report = call(&["render", &spec, "-o", &target, "--size", "8x6", "--backend", "cpu"]).refused();
-        assert!(report.contains("cannot be written"), "{report}");
+        assert!(report.contains("folder"), "{report}");
         assert_eq!(folder.names(), ["taken.png"], "{target}");
     }
+}
+
+#[test]
+fn files_that_would_overwrite_each_other_are_refused_before_anything_is_written() {
+    let folder = Folder::new("render-targets");
+    let file = |name: &str| folder.file(name);
+    let copy = file("copy.toml");
+    fs::copy(project(SPEC), &copy).expect("a spec can be copied");
+    let before = folder.read("copy.toml");
+    for (arguments, what) in [
+        (vec!["-o", &copy], "give each its own name"),
+        (vec!["-o", &file("a.png"), "--aov", &format!("node={}", file("a.png"))], "give each its own name"),
+        (vec!["-o", &file("a.png"), "--aov", &format!("node={}", file("./a.png"))], "give each its own name"),
+        (
+            vec!["-o", &file("a.png"), "--aov", &format!("region={}", file("r.png")), "--stats", &file("r.json")],
+            "give each its own name",
+        ),
+        (vec!["-o", &file("a.png"), "--stats", &file("none/s.json")], "make it first"),
+        (vec!["-o", &file("")], "it is a folder"),
+    ] {
+        let mut call_arguments = vec!["render", copy.as_str()];
+        call_arguments.extend(arguments.iter().map(|a| &**a));
+        let report = call(&call_arguments).refused();
+        assert!(report.contains(what), "{arguments:?}: {report}");
+        assert_eq!(folder.names(), ["copy.toml"], "{arguments:?}");
+    }
+    assert_eq!(folder.read("copy.toml"), before, "the spec is as it was");
 }

@@ -10,6 +10,17 @@ use crate::spec::Color;
 const WANTED: &str = "write \"#rrggbb\", \"#rrggbbaa\" or a CSS name such as \"orange\"";
 
 impl Item<'_> {
+    /// A colour whose alpha would mean nothing.
+    pub fn opaque_color(&self) -> Result<Color, InputError> {
+        match self.color()? {
+            color @ Color([_, _, _, 255]) => Ok(color),
+            color => {
+                let message = format!("{} has an alpha, and light has none: {color}", self.called());
+                Err(self.error(message).help("leave the last two digits out; `intensity` dims a light"))
+            }
+        }
+    }
+
     pub fn color(&self) -> Result<Color, InputError> {
         let text = self.text().map_err(|error| error.help(WANTED))?;
         parse(text).ok_or_else(|| {

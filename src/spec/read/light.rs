@@ -26,7 +26,7 @@ fn directional(item: &Item) -> Result<DirectionalSpec, InputError> {
     let table = Table::open(item, "[[light.directional]]", keys::DIRECTIONAL)?;
     Ok(DirectionalSpec {
         direction: table.need("direction")?.direction()?,
-        color: table.read("color", Item::color)?.unwrap_or(Color::rgb(255, 255, 255)),
+        color: table.read("color", Item::opaque_color)?.unwrap_or(Color::rgb(255, 255, 255)),
         intensity: table.read("intensity", brightness)?.unwrap_or(1.0),
     })
 }

@@ -4,10 +4,8 @@ use std::collections::HashMap;
 
 use super::suggest;
 use crate::InputError;
+use crate::lens::MAX_LENSES;
 use crate::spec::{At, Condition, Filter, LensSpec, Pattern, ShowWhat, Source, Spec};
-
-/// The most lenses of one spec.
-const MOST_LENSES: usize = 256;
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
     let links = Links { source: &spec.source, spec };
@@ -30,9 +28,10 @@ struct Links<'a> {
 
 impl Links<'_> {
     fn count(&self) -> Result<(), InputError> {
-        let Some(first_too_many) = self.spec.lenses.get(MOST_LENSES) else { return Ok(()) };
-        let message = format!("{} lenses are too many: a spec holds at most {MOST_LENSES}", self.spec.lenses.len());
-        Err(self.error(&first_too_many.name, message))
+        let enabled = || self.spec.lenses.iter().filter(|lens| lens.enabled);
+        let Some(first_too_many) = enabled().nth(MAX_LENSES) else { return Ok(()) };
+        let message = format!("{} lenses are enabled, and at most {MAX_LENSES} can be", enabled().count());
+        Err(self.error(&first_too_many.name, message).help("disable some with `enabled = false`"))
     }
 
     fn unique_names(&self) -> Result<(), InputError> {
