@@ -1,6 +1,6 @@
 //! The plan as an account: order, undecided pairs, regions, each with its reasons.
 
-use super::{Plan, Reason, Region, commute};
+use super::{Lens, LensSet, Plan, Reason, Reasons, Region, commute};
 use crate::spec::Spec;
 
 /// Two lenses whose order matters and that only the order of the file separates.
@@ -24,8 +24,9 @@ pub struct Account {
 impl Account {
     pub fn new(spec: &Spec, plan: &Plan) -> Self {
         let regions = plan.regions();
-        let undecided = undecided(plan, &regions);
-        let order = (1..plan.lenses.len()).map(|rank| plan.reason(spec, rank - 1, rank)).collect();
+        let reasons = Reasons::new(spec, plan);
+        let undecided = undecided(plan, &regions, &reasons);
+        let order = (1..plan.lenses.len()).map(|rank| reasons.between(rank - 1, rank).as_ref().clone()).collect();
         Self { regions, undecided, order }
     }
 
@@ -58,29 +59,14 @@ impl Account {
     }
 
     fn regions_text(&self, spec: &Spec, plan: &Plan) -> String {
+        let reasons = Reasons::new(spec, plan);
         let mut text = format!("regions that occur: {}\n", self.regions.len());
+        let acting = |lens: &Lens| format!("{} ({})", lens.name, lens.filter_names().collect::<Vec<_>>().join(", "));
+        let acting: Vec<String> = plan.lenses.iter().map(acting).collect();
         for region in &self.regions {
-            let stack: Vec<String> = region
-                .stack
-                .iter()
-                .map(|rank| {
-                    let lens = &plan.lenses[rank];
-                    format!("{} ({})", lens.name, lens.filter_names().collect::<Vec<_>>().join(", "))
-                })
-                .collect();
+            let stack: Vec<&str> = region.stack.iter().map(|rank| acting[rank].as_str()).collect();
             text += &format!("  {}\n      stack: {}\n", plan.names(region.set).join(" + "), stack.join(" < "));
-            for (hidden, by) in region.hidden(plan) {
-                let how = if plan.lenses[by].overrides { "overrides it" } else { "hides it" };
-                let why = plan.reason(spec, hidden, by);
-                let (hidden, by) = (&plan.lenses[hidden].name, &plan.lenses[by].name);
-                text += &format!("      hidden: {hidden}, for {by} {how} ({why})\n");
-            }
-            let ranks: Vec<usize> = region.stack.iter().collect();
-            for pair in ranks.windows(2) {
-                let why = plan.reason(spec, pair[0], pair[1]);
-                let (below, above) = (&plan.lenses[pair[0]].name, &plan.lenses[pair[1]].name);
-                text += &format!("      {below} < {above}: {why}\n");
-            }
+            text += &reasons.lines(region, "      ");
         }
         text
     }
@@ -96,13 +82,12 @@ impl Account {
     }
 }
 
-fn undecided(plan: &Plan, regions: &[Region]) -> Vec<Undecided> {
+fn undecided(plan: &Plan, regions: &[Region], reasons: &Reasons) -> Vec<Undecided> {
     let mut pairs = Vec::new();
-    for above in 0..plan.lenses.len() {
-        for below in 0..above {
-            let meet = || regions.iter().any(|r| r.set.contains(below) && r.set.contains(above));
+    for (above, met) in met_below(plan.lenses.len(), regions).into_iter().enumerate() {
+        for below in met.iter() {
             let (low, high) = (&plan.lenses[below], &plan.lenses[above]);
-            if !commute(low, high) && meet() && plan.only_file_order(below, above) {
+            if !commute(low, high) && reasons.only_file_order(below, above) {
                 pairs.push(Undecided {
                     below: low.name.clone(),
                     above: high.name.clone(),
@@ -112,4 +97,13 @@ fn undecided(plan: &Plan, regions: &[Region]) -> Vec<Undecided> {
         }
     }
     pairs
+}
+
+/// For each rank the lower ranks that it shares some region with.
+fn met_below(lenses: usize, regions: &[Region]) -> Vec<LensSet> {
+    let mut met = vec![LensSet::EMPTY; lenses];
+    for region in regions {
+        region.set.iter().for_each(|rank| met[rank] = met[rank] | (region.set & LensSet::below(rank)));
+    }
+    met
 }

@@ -1,6 +1,6 @@
 //! Why one lens is above another, and whether it matters.
 
-use super::Plan;
+use super::{Plan, Reasons};
 use crate::spec::{Filter, Spec};
 
 /// What decided that one lens is below another.
@@ -39,36 +39,9 @@ impl std::fmt::Display for Reason {
 }
 
 impl Plan {
-    /// Why the lens of rank `below` is below the lens of rank `above`.
+    /// Why the lens of rank `below` is below the lens of rank `above`; for many pairs ask [`Reasons`].
     pub fn reason(&self, spec: &Spec, below: usize, above: usize) -> Reason {
-        let (low, high) = (&self.lenses[below], &self.lenses[above]);
-        let name = |index: usize| spec.lenses[index].name.value.clone();
-        if let Some(chain) = self.graph.chain(low.index, high.index, &self.ranks) {
-            let edge = |(a, b, declared): (usize, usize, &super::Declared)| {
-                (declared.key.name(), spec.source.line(declared.span.start), name(a), name(b))
-            };
-            return Reason::Declared(chain.into_iter().map(edge).collect());
-        }
-        if self.only_file_order(below, above) {
-            return Reason::FileOrder;
-        }
-        let (a, b) = (&self.ranks[low.index], &self.ranks[high.index]);
-        if a.priority < b.priority {
-            return Reason::Priority(a.priority, b.priority);
-        }
-        if let (Some(far), Some(near), true) = (a.flat, b.flat, a.priority == b.priority)
-            && far > near
-        {
-            return Reason::Farther(far, near);
-        }
-        // Taken by itself the upper one would go first, but it has to wait for a lens that comes after the lower.
-        let awaited = |rank: &usize| self.graph.chain(self.lenses[*rank].index, high.index, &self.ranks).is_some();
-        let by_more_than_file = |rank: &usize| awaited(rank) && !self.only_file_order(below, *rank);
-        let between = || below + 1..above;
-        match between().find(by_more_than_file).or_else(|| between().find(awaited)) {
-            Some(rank) => Reason::Waited(self.lenses[rank].name.clone()),
-            None => Reason::FileOrder,
-        }
+        Reasons::new(spec, self).between(below, above).as_ref().clone()
     }
 
     /// Whether the lens of rank `below` is below the other for no better reason than where they stand in the file.

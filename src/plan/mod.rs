@@ -10,6 +10,7 @@ mod lenses;
 mod light;
 mod op;
 mod order;
+mod reasons;
 mod regions;
 mod walk;
 mod warnings;
@@ -27,6 +28,7 @@ pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
+pub use reasons::Reasons;
 pub use regions::Region;
 pub use walk::{Verdict, survivors, walk};
 

@@ -1,5 +1,7 @@
 //! The priority graph: declared edges, cycles, and the one total order (SEMANTICS section 3).
 
+use std::cmp::{Ordering, Reverse};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use petgraph::graph::{DiGraph, EdgeIndex, NodeIndex};
@@ -136,7 +138,7 @@ impl PriorityGraph {
     }
 
     /// The order if the lenses stood in the file as `place` sorts them.
-    fn order_by<K: Ord>(&self, ranks: &[Rank], place: impl Fn(usize) -> K) -> Vec<usize> {
+    fn order_by<K: Ord + Copy>(&self, ranks: &[Rank], place: impl Fn(usize) -> K) -> Vec<usize> {
         let above = |lens: usize| {
             let targets = self.graph.neighbors(NodeIndex::new(lens)).map(NodeIndex::index);
             targets.filter(|lens| ranks[*lens].enabled)
@@ -145,15 +147,15 @@ impl PriorityGraph {
         // How many edges each lens still waits for; parallel edges count each.
         let mut waits = vec![0usize; ranks.len()];
         enabled().flat_map(above).for_each(|lens| waits[lens] += 1);
-        let mut ready: Vec<usize> = enabled().filter(|lens| waits[*lens] == 0).collect();
+        let mut ready = Ready::default();
+        enabled().filter(|lens| waits[*lens] == 0).for_each(|lens| ready.insert(lens, &ranks[lens], place(lens)));
         let mut order = Vec::with_capacity(ranks.len());
-        while let Some(next) = choose(&ready, ranks, &place) {
-            ready.retain(|lens| *lens != next);
+        while let Some(next) = ready.take(ranks) {
             order.push(next);
             for lens in above(next) {
                 waits[lens] -= 1;
                 if waits[lens] == 0 {
-                    ready.push(lens);
+                    ready.insert(lens, &ranks[lens], place(lens));
                 }
             }
         }
@@ -161,17 +163,63 @@ impl PriorityGraph {
     }
 }
 
-/// Of the ready lenses of lowest priority the earliest; if that is flat, the farthest of those that are, then the earlier.
-fn choose<K: Ord>(ready: &[usize], ranks: &[Rank], place: &impl Fn(usize) -> K) -> Option<usize> {
-    let first = ready.iter().copied().min_by_key(|lens| (ranks[*lens].priority, place(*lens)))?;
-    if ranks[first].flat.is_none() {
-        return Some(first);
-    }
-    let same = ready.iter().copied().filter(|lens| ranks[*lens].priority == ranks[first].priority);
-    same.filter_map(|lens| Some((ranks[lens].flat?, lens)))
-        .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| place(b.1).cmp(&place(a.1))))
-        .map(|(_, lens)| lens)
+/// The lenses that wait for no other, sorted by who comes next.
+struct Ready<K> {
+    /// By priority and place.
+    all: BTreeMap<(i64, K), usize>,
+    /// Flat lenses by priority, the farthest first, then by place.
+    flat: BTreeMap<(i64, Reverse<Distance>, K), usize>,
 }
+
+impl<K> Default for Ready<K> {
+    fn default() -> Self {
+        Self { all: BTreeMap::new(), flat: BTreeMap::new() }
+    }
+}
+
+impl<K: Ord + Copy> Ready<K> {
+    fn insert(&mut self, lens: usize, rank: &Rank, place: K) {
+        self.all.insert((rank.priority, place), lens);
+        if let Some(distance) = rank.flat {
+            self.flat.insert((rank.priority, Reverse(Distance(distance)), place), lens);
+        }
+    }
+
+    /// Takes, of the lenses of lowest priority, the earliest; if that is flat, the farthest of those that are, then
+    /// the earlier.
+    fn take(&mut self, ranks: &[Rank]) -> Option<usize> {
+        let first = self.all.first_entry()?;
+        if ranks[*first.get()].flat.is_none() {
+            return Some(first.remove());
+        }
+        let ((priority, _, place), _) = self.flat.pop_first()?;
+        self.all.remove(&(priority, place))
+    }
+}
+
+/// A distance that sorts.
+#[derive(Clone, Copy)]
+struct Distance(f64);
+
+impl Ord for Distance {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Distance {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Distance {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Distance {}
 
 /// The other lenses a pattern stands for.
 fn matched(spec: &Spec, own: usize, pattern: &At<Pattern>) -> Result<Vec<usize>, InputError> {

@@ -55,8 +55,22 @@ impl Plan {
         found.remove(&LensSet::EMPTY);
         let mut regions: Vec<Region> =
             found.into_keys().map(|set| Region { set, stack: survivors(&self.lenses, set) }).collect();
-        regions.sort_by_cached_key(|region| self.names(region.set).into_iter().map(String::from).collect::<Vec<_>>());
+        let places = self.places_by_name();
+        regions.sort_by_cached_key(|region| {
+            let mut names: Vec<usize> = region.set.iter().map(|rank| places[rank]).collect();
+            names.sort_unstable();
+            names
+        });
         regions
+    }
+
+    /// For each rank the place of its lens among the sorted names.
+    fn places_by_name(&self) -> Vec<usize> {
+        let mut sorted: Vec<usize> = (0..self.lenses.len()).collect();
+        sorted.sort_by_key(|rank| &self.lenses[*rank].name);
+        let mut places = vec![0; sorted.len()];
+        sorted.iter().enumerate().for_each(|(place, rank)| places[*rank] = place);
+        places
     }
 
     /// The distinct ways in which lenses are limited to items, with the bounds of the items of each.
