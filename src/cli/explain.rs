@@ -1,11 +1,13 @@
 //! `lenspeel explain`.
 
+mod pixel;
+
 use serde_json::{Value, json};
 
+use self::pixel::PixelAccount;
 use super::args::{ExplainArgs, ExplainFormat};
 use crate::InputError;
-use crate::cpu::{self, PixelReport};
-use crate::plan::{Account, LensSet, Plan, filter_name};
+use crate::plan::{Account, LensSet, Plan, Reasons, Region, filter_name};
 use crate::scene::Scene;
 use crate::spec::Spec;
 
@@ -13,18 +15,8 @@ pub fn run(args: &ExplainArgs) -> Result<(), InputError> {
     let spec = Spec::load(&args.spec)?;
     let scene = Scene::open(&spec)?;
     let plan = Plan::new(&spec, &scene)?;
-    if let Some([x, y]) = args.pixel {
-        let [width, height] = plan.view.size;
-        if x >= width || y >= height {
-            let message = format!("the picture has {width} x {height} pixels, so there is no pixel {x},{y}");
-            return Err(InputError::new(message).help("columns and rows count from 0 at the top left"));
-        }
-        let report = cpu::Renderer::new(&scene, &plan).explain(x, y);
-        super::print(&match args.format {
-            ExplainFormat::Json => pretty(&pixel_json(&scene, &plan, [x, y], &report)),
-            _ => pixel_text(&scene, &plan, [x, y], &report),
-        });
-        return Ok(());
+    if let Some(pixel) = args.pixel {
+        return one_pixel(&spec, &scene, &plan, pixel, args.format);
     }
     super::print(&match args.format {
         ExplainFormat::Text => Account::new(&spec, &plan).text(&spec, &plan),
@@ -35,12 +27,38 @@ pub fn run(args: &ExplainArgs) -> Result<(), InputError> {
     Ok(())
 }
 
+fn one_pixel(
+    spec: &Spec,
+    scene: &Scene,
+    plan: &Plan,
+    [x, y]: [u32; 2],
+    format: ExplainFormat,
+) -> Result<(), InputError> {
+    let [width, height] = plan.view.size;
+    if x >= width || y >= height {
+        let message = format!("the picture has {width} x {height} pixels, so there is no pixel {x},{y}");
+        return Err(InputError::new(message).help("columns and rows count from 0 at the top left"));
+    }
+    let account = || PixelAccount::new(spec, scene, plan, [x, y]);
+    super::print(&match format {
+        ExplainFormat::Text => account().text(),
+        ExplainFormat::Json => pretty(&account().json()),
+        ExplainFormat::Dot | ExplainFormat::Mermaid => {
+            return Err(InputError::new(
+                "one pixel has no graph of lenses, so `--pixel` cannot be drawn as dot or mermaid",
+            )
+            .help("use `--format text` or `--format json` with `--pixel`, or leave `--pixel` out"));
+        }
+    });
+    Ok(())
+}
+
 fn pretty(value: &Value) -> String {
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
 fn json(spec: &Spec, plan: &Plan) -> Value {
-    let account = Account::new(spec, plan);
+    let (account, reasons) = (Account::new(spec, plan), Reasons::new(spec, plan));
     let order: Vec<Value> = plan
         .lenses
         .iter()
@@ -60,12 +78,12 @@ fn json(spec: &Spec, plan: &Plan) -> Value {
         .regions
         .iter()
         .map(|region| {
-            let hidden: Vec<Value> = region
-                .hidden(plan)
-                .into_iter()
-                .map(|(lens, by)| json!({ "lens": plan.lenses[lens].name, "by": plan.lenses[by].name }))
-                .collect();
-            json!({ "lenses": plan.names(region.set), "stack": stack_json(plan, region.stack), "hidden": hidden })
+            json!({
+                "lenses": plan.names(region.set),
+                "stack": stack_json(plan, region.stack),
+                "hidden": hidden_json(&reasons, region),
+                "order": order_json(&reasons, region.stack),
+            })
         })
         .collect();
     let undecided: Vec<Value> =
@@ -81,6 +99,18 @@ fn stack_json(plan: &Plan, stack: LensSet) -> Vec<Value> {
             lens.filters.iter().map(|f| json!({ "lens": lens.name, "filter": filter_name(f) }))
         })
         .collect()
+}
+
+/// The lenses of a region that do not act there.
+fn hidden_json(reasons: &Reasons, region: &Region) -> Vec<Value> {
+    let hidden = reasons.hidden(region);
+    hidden.map(|h| json!({ "lens": h.lens, "by": h.by, "because": h.because.to_string() })).collect()
+}
+
+/// Why each lens of a stack is above the one before it.
+fn order_json(reasons: &Reasons, stack: LensSet) -> Vec<Value> {
+    let neighbours = reasons.neighbours(stack);
+    neighbours.map(|n| json!({ "below": n.below, "above": n.above, "because": n.because.to_string() })).collect()
 }
 
 /// Declared edges as `(below, above, label)`.
@@ -127,66 +157,4 @@ fn mermaid(spec: &Spec, plan: &Plan) -> String {
         text += &format!("  l{} -->|\"{label}\"| l{}\n", number(&below), number(&above));
     }
     text
-}
-
-fn pixel_text(scene: &Scene, plan: &Plan, [x, y]: [u32; 2], report: &PixelReport) -> String {
-    let set = |set: LensSet| if set.is_empty() { "no lens".into() } else { plan.names(set).join(" + ") };
-    let mut text = format!("pixel {x},{y}: {} layers\n", report.layers.count());
-    for (i, start) in report.layers.starts.iter().enumerate() {
-        let end = report.layers.starts.get(i + 1).map_or(plan.view.far, |next| next.depth);
-        text += &format!("  {:12.5} .. {:12.5}  {}\n", start.depth, end, set(start.set));
-    }
-    text += &format!("fragments that survive, nearest first: {}\n", report.fragments.len());
-    for (fragment, opacity, coverage) in &report.fragments {
-        let (node, material) = names(scene, plan, fragment.item);
-        let stack: Vec<String> = fragment.stack.iter().map(|rank| plan.lenses[rank].name.clone()).collect();
-        let visible = report.visible.is_some_and(|v| v.fragment == *fragment);
-        text += &format!(
-            "  {:12.5}  {node} ({material}), triangle {}: in {}; stack {}; opacity {opacity:.3}, coverage {coverage:.3}{}\n",
-            fragment.depth,
-            fragment.triangle,
-            set(fragment.set),
-            if stack.is_empty() { "none".into() } else { stack.join(" < ") },
-            if visible { "  <- visible" } else { "" },
-        );
-    }
-    text
-}
-
-fn pixel_json(scene: &Scene, plan: &Plan, pixel: [u32; 2], report: &PixelReport) -> Value {
-    let layers: Vec<Value> =
-        report.layers.starts.iter().map(|s| json!({ "depth": s.depth, "lenses": plan.names(s.set) })).collect();
-    let fragments: Vec<Value> = report
-        .fragments
-        .iter()
-        .map(|(fragment, opacity, coverage)| {
-            let (node, material) = names(scene, plan, fragment.item);
-            json!({
-                "depth": fragment.depth,
-                "node": node,
-                "material": material,
-                "triangle": fragment.triangle,
-                "lenses": plan.names(fragment.set),
-                "stack": stack_json(plan, fragment.stack),
-                "opacity": opacity,
-                "coverage": coverage,
-                "visible": report.visible.is_some_and(|v| v.fragment == *fragment),
-            })
-        })
-        .collect();
-    json!({ "pixel": pixel, "layers": layers, "fragments": fragments })
-}
-
-/// Names of an item's node and material; numbers where the file gives none.
-fn names(scene: &Scene, plan: &Plan, item: u32) -> (String, String) {
-    let item = &plan.items[item as usize];
-    let model = &scene.models[item.model];
-    let or_number = |name: &str, kind: &str, i: usize| {
-        if name.is_empty() { format!("{kind} {i}") } else { name.to_string() }
-    };
-    let material = item.material - scene.material_base[item.model];
-    (
-        or_number(&model.nodes[item.node].name, "node", item.node),
-        or_number(&model.materials[material].name, "material", material),
-    )
 }

@@ -1,5 +1,7 @@
 //! Everything on one view ray: layers, hits in order, the visible fragment, the colour.
 
+mod removed;
+
 use glam::{Vec3, Vec4};
 use obvhs::ray::Ray as BvhRay;
 
@@ -13,6 +15,8 @@ use crate::lens::RayLayers;
 use crate::plan::{LensSet, Plan};
 use crate::scene::Scene;
 use crate::view::Ray;
+
+pub use removed::Removed;
 
 /// A surface sample on a ray, classified.
 #[derive(Debug, Clone, Copy, PartialEq)]

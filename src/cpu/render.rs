@@ -4,7 +4,7 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::geometry::Geometry;
-use super::pixel::{PixelReport, Scratch, Tracer, Visible};
+use super::pixel::{PixelReport, Removed, Scratch, Tracer, Visible};
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame};
 use crate::lens::PixelRect;
@@ -72,6 +72,13 @@ impl<'a> Renderer<'a> {
         let tracer = Tracer::new(self.scene, self.plan, &self.geometry);
         let rect = PixelRect { min: [x, y], max: [x + 1, y + 1] };
         tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks(&rect), &mut Scratch::default())
+    }
+
+    /// What lenses take away from the ray through a pixel's centre before a depth, nearest first.
+    pub fn removed(&self, x: u32, y: u32, before: f32) -> Vec<Removed> {
+        let tracer = Tracer::new(self.scene, self.plan, &self.geometry);
+        let rect = PixelRect { min: [x, y], max: [x + 1, y + 1] };
+        tracer.removed(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks(&rect), before)
     }
 
     fn ranks(&self, rect: &PixelRect) -> Vec<usize> {

@@ -102,7 +102,7 @@ impl<'a> Reasons<'a> {
     }
 
     /// The lenses of a region that do not act there.
-    pub fn hidden(&self, region: Region) -> impl Iterator<Item = Hidden<'a>> {
+    pub fn hidden(&self, region: &Region) -> impl Iterator<Item = Hidden<'a>> {
         let plan = self.plan;
         region.hidden(plan).into_iter().map(move |(lens, by)| Hidden {
             lens: &plan.lenses[lens].name,
@@ -124,7 +124,7 @@ impl<'a> Reasons<'a> {
 
     /// Who is hidden in a region and why the others stand as they do, a line each after `indent`.
     pub fn lines(&self, region: &Region, indent: &str) -> String {
-        let hidden = self.hidden(region.clone()).map(|Hidden { lens, by, overridden, because }| {
+        let hidden = self.hidden(region).map(|Hidden { lens, by, overridden, because }| {
             let how = if overridden { "overrides it" } else { "hides it" };
             format!("{indent}hidden: {lens}, for {by} {how} ({because})\n")
         });
