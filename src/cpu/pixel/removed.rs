@@ -1,6 +1,6 @@
 //! What is not seen because a lens takes it away, for `explain`.
 
-use super::{Fragment, ShearedRay, Tracer};
+use super::{Fragment, Reach, ShearedRay, Tracer};
 use crate::lens::RayLayers;
 use crate::plan::{Item, LensSet, Verdict};
 
@@ -21,14 +21,13 @@ impl Tracer<'_> {
         let view = &self.plan.view;
         let mut layers = RayLayers::default();
         layers.find(ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume)), &ray, view.near, view.far);
-        // As in `trace_content`: rays of an orthographic camera start at the near plane.
-        let shift = if view.is_perspective() { 0.0 } else { view.near };
+        let Reach { start, scale } = self.reach;
         let direction = ray.direction.as_vec3() + glam::Vec3::ZERO;
-        let sheared = ShearedRay::new(ray.at(shift).as_vec3(), direction);
+        let sheared = ShearedRay::new(((ray.at(start) - view.eye) * scale).as_vec3(), direction);
         let mut removed = Vec::new();
         for triangle in self.geometry.iter().flat_map(|geometry| &geometry.triangles) {
             let Some(hit) = sheared.hit(&triangle.corners) else { continue };
-            let depth = hit.t + shift as f32;
+            let depth = (f64::from(hit.t) / scale + start) as f32;
             let in_view = depth >= view.near as f32 && depth < before.min(view.far as f32);
             if !in_view || self.is_culled(triangle, direction) {
                 continue;
