@@ -32,12 +32,12 @@ impl Scene {
         };
         let file = &spec.scene.file;
         let first = load(&file.value, choice.map(|c| &c.value), &file.span);
-        let mut models = vec![first.or_else(|error| match choice {
+        let mut models = vec![first.map_err(|error| match choice {
             // Where the file opens without the choice, the choice is what is wrong.
             Some(choice) if Model::load(&file.value, None).is_ok() => {
-                Err(InputError { labels: vec![(choice.span.clone(), "here".into())], ..error })
+                InputError { labels: vec![(choice.span.clone(), "here".into())], ..error }
             }
-            _ => Err(error),
+            _ => error,
         })?];
         for (_, path) in &spec.scene.alternates {
             models.push(load(&path.value, None, &path.span)?);
