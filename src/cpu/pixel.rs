@@ -176,9 +176,7 @@ impl<'a> Tracer<'a> {
         let Reach { start, scale } = self.reach;
         let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
         let traced = |depth: f64| ((depth - start) * scale) as f32;
-        let origin = ((ray.at(start) - self.plan.view.eye) * scale).as_vec3();
-        // The BVH takes -0 for a negative direction in one place and for a positive one in another: no -0 here.
-        let direction = ray.direction.as_vec3() + Vec3::ZERO;
+        let (origin, direction) = self.traced(ray);
         let sheared = ShearedRay::new(origin, direction);
         let mut walk_ray = BvhRay::new(origin.into(), direction.into(), 0.0, traced(self.plan.view.far));
         if let Some(known) = &*opaque {
@@ -209,6 +207,14 @@ impl<'a> Tracer<'a> {
         obvhs::traverse!(geometry.bvh, node, state, node.intersect_ray(&walk_ray, state.oct_inv4), {
             visit(state.primitive_id, &mut walk_ray.tmax);
         });
+    }
+
+    /// Origin and direction of a ray in the space of the geometry.
+    fn traced(&self, ray: &Ray) -> (Vec3, Vec3) {
+        let Reach { start, scale } = self.reach;
+        let origin = ((ray.at(start) - self.plan.view.eye) * scale).as_vec3();
+        // The BVH takes -0 for a negative direction in one place and for a positive one in another: no -0 here.
+        (origin, ray.direction.as_vec3() + Vec3::ZERO)
     }
 
     /// The fragment with its lenses, unless they take it away.

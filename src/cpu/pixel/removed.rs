@@ -22,8 +22,8 @@ impl Tracer<'_> {
         let mut layers = RayLayers::default();
         layers.find(ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume)), &ray, view.near, view.far);
         let Reach { start, scale } = self.reach;
-        let direction = ray.direction.as_vec3() + glam::Vec3::ZERO;
-        let sheared = ShearedRay::new(((ray.at(start) - view.eye) * scale).as_vec3(), direction);
+        let (origin, direction) = self.traced(&ray);
+        let sheared = ShearedRay::new(origin, direction);
         let mut removed = Vec::new();
         for triangle in self.geometry.iter().flat_map(|geometry| &geometry.triangles) {
             let Some(hit) = sheared.hit(&triangle.corners) else { continue };
