@@ -53,9 +53,10 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
     let point = sample_point(pixel);
     var around = Set();
     var count = 0u;
-    for (var i = 0u; i < tile.lens_count; i += 1u) {
-        let rank = tiles[tile.first_lens + i];
-        let span = lens_span(rank, point);
+    for (var i = 0u; i < tile.part_count; i += 1u) {
+        let part = tiles[tile.first_part + i];
+        let rank = parts[part].lens;
+        let span = part_span(part, point);
         let entry = max(span.entry, frame.near);
         let exit = min(span.exit, frame.far);
         if !span.hit || entry >= exit {

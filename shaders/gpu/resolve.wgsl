@@ -10,7 +10,7 @@ fn composited(pixel: vec2u) -> vec4f {
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
     var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var last_glass = GlassHit(-FAR_AWAY, 0u, false, no_span());
+    var last_glass = GlassHit(-FAR_AWAY, 0u, false, 0u, no_span());
     loop {
         let pick = next_fragment(pixel, opaque, last);
         let glass = next_glass(tile, at, last_glass);

@@ -58,7 +58,7 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
-    if tile.lens_count == 0u {
+    if tile.part_count == 0u {
         return keep(in.item, triangle, pixel, hit.depth, Set());
     }
     let at = layers_at(tile, pixel);

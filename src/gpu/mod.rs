@@ -14,6 +14,7 @@ mod frame;
 mod headless;
 mod job;
 mod lens_data;
+mod part_data;
 mod pipelines;
 mod readback;
 mod records;
@@ -33,7 +34,7 @@ pub use window::Window;
 
 pub mod layout {
     //! The records shared with WGSL, for tests that compare their layouts.
-    pub use super::records::{FrameRecord, ItemRecord, LensRecord, TextureInfo};
+    pub use super::records::{FrameRecord, ItemRecord, LensRecord, PartRecord, TextureInfo};
 }
 
 /// How the scene meets the layers.

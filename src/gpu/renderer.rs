@@ -244,13 +244,14 @@ impl Renderer {
             ("frames", frames, uniform),
             ("items", items, storage),
             ("lenses", &lens_data.lenses, storage),
-            ("lens data", bytemuck::cast_slice(&lens_data.vectors), storage),
+            ("parts of lenses", bytemuck::cast_slice(&lens_data.parts.records), storage),
+            ("lens data", bytemuck::cast_slice(&lens_data.parts.vectors), storage),
             ("filters", bytemuck::cast_slice(&plan.ops), storage),
             ("lights", bytemuck::cast_slice(&lights), storage),
             ("tiles", bytemuck::cast_slice(&tiles.words), storage),
         ]
         .map(|(label, bytes, usage)| plan_buffer(device, label, bytes, usage));
-        let [frames, items, lenses, vectors, ops, lights, tiles] = buffers;
+        let [frames, items, lenses, parts, vectors, ops, lights, tiles] = buffers;
         let record = wgpu::BufferBinding {
             buffer: &frames?,
             offset: 0,
@@ -264,6 +265,7 @@ impl Renderer {
                 wgpu::BindingResource::Buffer(record),
                 items?.as_entire_binding(),
                 lenses?.as_entire_binding(),
+                parts?.as_entire_binding(),
                 vectors?.as_entire_binding(),
                 ops?.as_entire_binding(),
                 lights?.as_entire_binding(),

@@ -30,9 +30,9 @@ impl Module {
     fn parts(self) -> &'static [&'static str] {
         match self {
             Module::DepthMap => &[PLANE, DEPTH_MAP],
-            Module::Layers => &[SET, PLANE, LENS, LAYERS],
+            Module::Layers => &[SET, PLANE, PART, LAYERS],
             Module::Visibility => &[VISIBILITY, SET, LAYER_LOOKUP, GEOMETRY],
-            Module::Resolve => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, PLANE, LENS, GLASS, FRAGMENTS, RESOLVE],
+            Module::Resolve => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, PLANE, PART, GLASS, FRAGMENTS, RESOLVE],
             Module::Aov => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, FRAGMENTS, AOV],
             Module::Finish => &[FINISH],
         }
@@ -43,7 +43,7 @@ const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
 const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
 const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
-const LENS: &str = include_str!("../../shaders/gpu/lens.wgsl");
+const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const DEPTH_MAP: &str = include_str!("../../shaders/gpu/depth_map.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");

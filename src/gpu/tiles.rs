@@ -1,4 +1,4 @@
-//! Which lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
+//! Which parts of lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
 
 use super::Window;
 use crate::lens::{LayerStart, LensSet};
@@ -12,31 +12,34 @@ pub const DISPATCH_WIDTH: u32 = 1024;
 /// The tiles of a window as the shaders read them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tiles {
-    /// Four words a tile (first word of its layers, words a pixel, first lens, lenses), the numbers of the tiles
-    /// that lenses touch, and the lists of lenses.
+    /// Four words a tile (first word of its layers, words a pixel, first part, parts), the numbers of the tiles
+    /// that lenses touch, and the lists of parts.
     pub words: Vec<u32>,
     /// Tiles that lenses touch.
     pub active: u32,
     /// Words that the layers of all pixels of those tiles need.
     pub layer_words: u64,
-    /// The most lenses on one tile.
-    pub most_lenses: u32,
+    /// The most layers that a pixel has room for.
+    pub most_layers: u32,
+    /// Words of a layer.
+    stride: u32,
 }
 
 impl Tiles {
-    /// A pixel of a tile with n lenses has at most 2n + 1 layers, so storage is settled here and nothing can overflow.
+    /// A ray crosses each of n convex parts at most twice, so a pixel has at most 2n + 1 layers: storage is settled here.
     pub fn new(plan: &Plan, window: &Window, set_words: u32) -> Self {
         let columns = window.size[0].div_ceil(TILE);
         let rows = window.size[1].div_ceil(TILE);
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
-        for (rank, lens) in (0u32..).zip(&plan.lenses) {
-            let rect = window.local(&lens.rect);
+        let solids = plan.lenses.iter().flat_map(|lens| std::slice::from_ref(&lens.volume));
+        for (part, solid) in (0u32..).zip(solids) {
+            let rect = window.local(&solid.pixel_rect(&plan.view));
             if rect.is_empty() {
                 continue;
             }
             for y in rect.min[1] / TILE..rect.max[1].div_ceil(TILE) {
                 for x in rect.min[0] / TILE..rect.max[0].div_ceil(TILE) {
-                    lists[(y * columns + x) as usize].push(rank);
+                    lists[(y * columns + x) as usize].push(part);
                 }
             }
         }
@@ -50,37 +53,37 @@ impl Tiles {
         pixels
             .map(|(x, y)| {
                 let tile = 4 * (y / TILE * columns + x / TILE) as usize;
-                let [first, stride, _, lenses] = [0, 1, 2, 3].map(|i| self.words[tile + i]);
-                if lenses == 0 {
+                let [first, stride, _, parts] = [0, 1, 2, 3].map(|i| self.words[tile + i]);
+                if parts == 0 {
                     return vec![LayerStart { depth: near, set: LensSet::EMPTY }];
                 }
                 let at = (first + (y % TILE * TILE + x % TILE) * stride) as usize;
-                let layer_words = ((stride - 1) / (2 * lenses + 1)) as usize;
                 let layer = |words: &[u32]| LayerStart {
                     depth: f64::from(f32::from_bits(words[0])),
                     set: LensSet::from_words(&words[1..]),
                 };
-                layers[at + 1..].chunks_exact(layer_words).take(layers[at] as usize).map(layer).collect()
+                layers[at + 1..].chunks_exact(self.stride as usize).take(layers[at] as usize).map(layer).collect()
             })
             .collect()
     }
 
     fn from_lists(lists: &[Vec<u32>], set_words: u32) -> Self {
         let active: Vec<u32> = (0u32..).zip(lists).filter(|(_, list)| !list.is_empty()).map(|(tile, _)| tile).collect();
+        let layer = 1 + set_words;
         let mut words = Vec::new();
         let mut layer_words = 0u64;
-        let mut next_lens = (4 * lists.len() + active.len()) as u32;
+        let mut next_part = (4 * lists.len() + active.len()) as u32;
         for list in lists {
             let count = list.len() as u32;
-            let stride = if count == 0 { 0 } else { 1 + (2 * count + 1) * (1 + set_words) };
-            words.extend([layer_words as u32, stride, next_lens, count]);
+            let stride = if count == 0 { 0 } else { 1 + (2 * count + 1) * layer };
+            words.extend([layer_words as u32, stride, next_part, count]);
             layer_words += u64::from(stride) * u64::from(TILE * TILE);
-            next_lens += count;
+            next_part += count;
         }
         words.extend(&active);
         words.extend(lists.iter().flatten());
-        let most_lenses = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
-        Self { words, active: active.len() as u32, layer_words, most_lenses }
+        let most_layers = 2 * lists.iter().map(Vec::len).max().unwrap_or(0) as u32 + 1;
+        Self { words, active: active.len() as u32, layer_words, most_layers, stride: layer }
     }
 }
 
