@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::Window;
-use crate::lens::{Form, PixelRect, Polyhedron, Volume};
+use crate::lens::{Form, PixelRect, Polyhedron, Solid};
 use crate::plan::Plan;
 
 /// From so many planes on, faces are drawn; below, each ray asks every plane.

@@ -146,7 +146,7 @@ pub(super) fn fit_depths(
 }
 
 fn fitted(view: &View, scene: &Scene, volumes: &[Option<Volume>]) -> (f64, f64) {
-    let hulls = volumes.iter().flatten().flat_map(|v| v.hull.iter().copied());
+    let hulls = volumes.iter().flatten().flat_map(|v| v.hull());
     let models = scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty()).flat_map(|b| b.corners());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for depth in models.chain(hulls).map(|p| view.depth(p)) {

@@ -246,6 +246,10 @@ impl Aabb {
         Aabb { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    pub fn intersection(self, other: Self) -> Self {
+        Aabb { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
     pub fn overlaps(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
