@@ -47,7 +47,7 @@ impl DepthMaps {
     /// `layer_words`: how many words stand before the maps.
     pub fn new(plan: &Plan, window: &Window, layer_words: u64) -> Self {
         let mut maps = Self { first_word: layer_words, end_word: layer_words, ..Self::default() };
-        let solids = plan.lenses.iter().flat_map(|lens| std::slice::from_ref(&lens.volume));
+        let solids = plan.lenses.iter().flat_map(|lens| &lens.volume.parts);
         for (part, solid) in solids.enumerate() {
             let rect = window.local(&solid.pixel_rect(&plan.view));
             let Some(faces) = faces(solid).filter(|_| !rect.is_empty()) else { continue };
@@ -58,7 +58,7 @@ impl DepthMaps {
         maps
     }
 
-    fn add_faces(&mut self, part: usize, solid: &Volume, faces: &Polyhedron, eye: DVec3) {
+    fn add_faces(&mut self, part: usize, solid: &Solid, faces: &Polyhedron, eye: DVec3) {
         let vertex = |corner: DVec3, face: usize| FaceVertex {
             corner: (solid.world_from_local.transform_point3(corner) - eye).as_vec3().to_array(),
             part: part as u32,
@@ -78,7 +78,7 @@ impl DepthMaps {
 }
 
 /// The faces of a part that is drawn rather than asked plane by plane. Flat parts are open to the far side.
-fn faces(solid: &Volume) -> Option<Polyhedron> {
+fn faces(solid: &Solid) -> Option<Polyhedron> {
     match &solid.form {
         Form::HalfSpaces { planes, .. } if planes.len() >= FROM_PLANES && !solid.is_flat => {
             Polyhedron::from_planes(planes).ok()

@@ -18,7 +18,7 @@ impl LensData {
         let mut data = Self::default();
         for (rank, lens) in (0u32..).zip(&plan.lenses) {
             let first_part = data.parts.records.len() as u32;
-            for solid in std::slice::from_ref(&lens.volume) {
+            for solid in &lens.volume.parts {
                 data.parts.add(&plan.view, rank, solid, maps);
             }
             let mut record = LensRecord {

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::depth_maps::{DepthMap, DepthMaps};
 use super::records::{self, PartRecord, extended};
-use crate::lens::{Form, Plane, Volume};
+use crate::lens::{Form, Plane, Solid};
 use crate::view::View;
 
 /// Parts with the vectors that they point into.
@@ -61,7 +61,7 @@ impl AffineRay {
 
 impl PartData {
     /// Appends a part of the lens of the given rank.
-    pub fn add(&mut self, view: &View, rank: u32, solid: &Volume, maps: &DepthMaps) {
+    pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, maps: &DepthMaps) {
         let perspective = view.is_perspective();
         let local_from_eye = solid.local_from_world * DAffine3::from_translation(view.eye);
         let ray = AffineRay::new(view).in_space(&local_from_eye, perspective);
@@ -90,7 +90,7 @@ impl PartData {
         self.records.push(record);
     }
 
-    fn set_form(&mut self, record: &mut PartRecord, solid: &Volume, ray: &AffineRay, perspective: bool) {
+    fn set_form(&mut self, record: &mut PartRecord, solid: &Solid, ray: &AffineRay, perspective: bool) {
         match &solid.form {
             Form::Sphere => record.form = records::FORM_SPHERE,
             Form::Cone { r0, r1 } => {

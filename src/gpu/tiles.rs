@@ -31,7 +31,7 @@ impl Tiles {
         let columns = window.size[0].div_ceil(TILE);
         let rows = window.size[1].div_ceil(TILE);
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
-        let solids = plan.lenses.iter().flat_map(|lens| std::slice::from_ref(&lens.volume));
+        let solids = plan.lenses.iter().flat_map(|lens| &lens.volume.parts);
         for (part, solid) in (0u32..).zip(solids) {
             let rect = window.local(&solid.pixel_rect(&plan.view));
             if rect.is_empty() {
