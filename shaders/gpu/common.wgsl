@@ -1,11 +1,14 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
-// `WORDS`, the number of 32-bit words of a lens set, is put in front of this file when it is assembled.
+// Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, and
+// `PART_WORDS`, that of a set of one lens's parts.
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
 // Stands for infinity: infinite values are not reliable in WGSL.
 const FAR_AWAY: f32 = 1e37;
 const TILE: u32 = 16u;
+// Boundaries closer than this share of the depth are one.
+const MERGE: f32 = 1e-5;
 
 // Twin of `records::FrameRecord`.
 struct Frame {
@@ -91,6 +94,7 @@ const FORM_SPHERE: u32 = 1u;
 const FORM_CONE: u32 = 2u;
 const FORM_CAPSULE: u32 = 3u;
 const FORM_HALF_SPACES: u32 = 4u;
+const FORM_MESH: u32 = 5u;
 
 const LENS_GLASS: u32 = 1u;
 
@@ -101,6 +105,9 @@ struct Lens {
     // Its parts in `parts`.
     first_part: u32,
     part_count: u32,
+    // Its program in `lens_words`; none where it is one convex part.
+    first_token: u32,
+    token_count: u32,
     first_op: u32,
     op_count: u32,
     hides: array<u32, WORDS>,
@@ -111,7 +118,7 @@ const PART_FLAT: u32 = 1u;
 const PART_DEPTH_MAP: u32 = 2u;
 const PART_HOLDS_EYE: u32 = 4u;
 
-// One solid of a lens volume: twin of `records::PartRecord`.
+// One solid of a lens volume, convex but for FORM_MESH: twin of `records::PartRecord`.
 struct Part {
     // The pixel's ray in the part's own space, as in `Frame`.
     ray_fixed: vec4f,
@@ -141,6 +148,15 @@ struct Part {
     map_first: u32,
     map_min: vec2u,
     map_size: vec2u,
+    // A mesh in `lens_words`, and for how many of its crossings each pixel has room.
+    first_node: u32,
+    node_count: u32,
+    first_triangle: u32,
+    first_vertex: u32,
+    crossing_room: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
 }
 
 // Twin of `scene::TextureSlot`.
@@ -205,10 +221,12 @@ struct TextureInfo {
 @group(1) @binding(2) var<storage, read> lenses: array<Lens>;
 @group(1) @binding(3) var<storage, read> parts: array<Part>;
 @group(1) @binding(4) var<storage, read> lens_data: array<vec4f>;
-@group(1) @binding(5) var<storage, read> ops: array<Op>;
-@group(1) @binding(6) var<storage, read> lights: array<Light>;
+// Programs and meshes of lenses.
+@group(1) @binding(5) var<storage, read> lens_words: array<u32>;
+@group(1) @binding(6) var<storage, read> ops: array<Op>;
+@group(1) @binding(7) var<storage, read> lights: array<Light>;
 // Four words a tile (see `TileRecord`), then the tiles that lenses touch, then their lists of parts.
-@group(1) @binding(7) var<storage, read> tiles: array<u32>;
+@group(1) @binding(8) var<storage, read> tiles: array<u32>;
 
 struct TileRecord {
     // Where the layers of its first pixel are, and how many words each pixel has there.

@@ -2,7 +2,9 @@
 
 use super::depth_maps::DepthMaps;
 use super::part_data::PartData;
+use super::program::program;
 use super::records::{self, LensRecord, words_of};
+use crate::lens::{Tree, Volume};
 use crate::plan::Plan;
 
 /// Records of all lenses and of their parts.
@@ -14,16 +16,20 @@ pub struct LensData {
 }
 
 impl LensData {
-    pub fn new(plan: &Plan, words: u32, maps: &DepthMaps) -> Self {
+    /// `words`: of a set of lenses; `crossings`: for how many crossings with one mesh a pixel has room.
+    pub fn new(plan: &Plan, words: u32, maps: &DepthMaps, crossings: u32) -> Self {
         let mut data = Self::default();
         for (rank, lens) in (0u32..).zip(&plan.lenses) {
             let first_part = data.parts.records.len() as u32;
             for solid in &lens.volume.parts {
-                data.parts.add(&plan.view, rank, solid, maps);
+                data.parts.add(&plan.view, rank, solid, maps, crossings);
             }
+            let program = if is_simple(&lens.volume) { vec![] } else { program(&lens.volume.tree) };
             let mut record = LensRecord {
                 first_part,
-                part_count: data.parts.records.len() as u32 - first_part,
+                part_count: lens.volume.parts.len() as u32,
+                first_token: data.parts.words.len() as u32,
+                token_count: program.len() as u32,
                 first_op: lens.ops.start as u32,
                 op_count: lens.ops.len() as u32,
                 ..bytemuck::Zeroable::zeroed()
@@ -32,6 +38,7 @@ impl LensData {
                 record.glass = glass;
                 record.flags |= records::LENS_GLASS;
             }
+            data.parts.words.extend(program);
             data.lenses.extend_from_slice(bytemuck::bytes_of(&record));
             words_of(&lens.hides, words).for_each(|word| data.lenses.extend_from_slice(&word.to_le_bytes()));
             // Records start at multiples of 16 bytes.
@@ -39,4 +46,9 @@ impl LensData {
         }
         data
     }
+}
+
+/// Whether a ray has one interval in it at the most, that of its only part.
+fn is_simple(volume: &Volume) -> bool {
+    matches!(volume.tree, Tree::Part(_))
 }

@@ -16,9 +16,12 @@ mod job;
 mod lens_data;
 mod part_data;
 mod pipelines;
+mod plan_group;
+mod program;
 mod readback;
 mod records;
 mod renderer;
+mod room;
 mod shaders;
 mod targets;
 mod tiles;
@@ -29,7 +32,8 @@ pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe,
 pub use error::Error;
 pub use headless::{Headless, Timings};
 pub use renderer::{Encoded, Renderer};
-pub use shaders::{Module, source};
+pub use room::Room;
+pub use shaders::{Module, SetWords, source};
 pub use window::Window;
 
 pub mod layout {

@@ -13,6 +13,8 @@ pub struct PartData {
     pub records: Vec<PartRecord>,
     /// Planes and corners.
     pub vectors: Vec<[f32; 4]>,
+    /// Meshes, and the programs of lenses.
+    pub words: Vec<u32>,
 }
 
 /// What a ray is, relative to the eye, at a point (x, y) of the picture: `fixed` and `base + x dx + y dy`.
@@ -61,7 +63,7 @@ impl AffineRay {
 
 impl PartData {
     /// Appends a part of the lens of the given rank.
-    pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, maps: &DepthMaps) {
+    pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, maps: &DepthMaps, crossings: u32) {
         let perspective = view.is_perspective();
         let local_from_eye = solid.local_from_world * DAffine3::from_translation(view.eye);
         let ray = AffineRay::new(view).in_space(&local_from_eye, perspective);
@@ -75,6 +77,7 @@ impl PartData {
             normal_y: extended(normals.y_axis),
             normal_z: extended(normals.z_axis),
             lens: rank,
+            crossing_room: crossings,
             ..bytemuck::Zeroable::zeroed()
         };
         if solid.is_flat {

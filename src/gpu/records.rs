@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::plan::{GlassRecord, LensSet};
+use super::SetWords;
+use crate::plan::{GlassRecord, LensSet, Plan};
 
 /// Stands for "not there" in an index.
 pub const NONE: u32 = u32::MAX;
@@ -93,6 +94,9 @@ pub struct LensRecord {
     pub flags: u32,
     pub first_part: u32,
     pub part_count: u32,
+    /// Its program; none where it is one convex part.
+    pub first_token: u32,
+    pub token_count: u32,
     pub first_op: u32,
     pub op_count: u32,
 }
@@ -126,6 +130,14 @@ pub struct PartRecord {
     pub map_first: u32,
     pub map_min: [u32; 2],
     pub map_size: [u32; 2],
+    /// Words of a mesh: its nodes, triangles and corners.
+    pub first_node: u32,
+    pub node_count: u32,
+    pub first_triangle: u32,
+    pub first_vertex: u32,
+    /// For how many of its crossings a pixel has room.
+    pub crossing_room: u32,
+    pub pad: [u32; 3],
 }
 
 /// How a texture is sampled and where its levels lie on the pages.
@@ -142,9 +154,11 @@ pub struct TextureInfo {
     pub levels: [[u32; 4]; 16],
 }
 
-/// Words of a lens set on the device.
-pub fn set_words(lenses: usize) -> u32 {
-    lenses.div_ceil(32).max(1) as u32
+/// Words of the sets that a plan needs on the device.
+pub fn set_words(plan: &Plan) -> SetWords {
+    let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
+    let most_parts = plan.lenses.iter().map(|lens| lens.volume.parts.len()).max();
+    SetWords { lenses: words(plan.lenses.len()), parts: words(most_parts.unwrap_or(1)) }
 }
 
 /// The words of a set.

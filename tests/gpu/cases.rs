@@ -116,11 +116,9 @@ fn lists_that_overflow(device: &Headless) -> Result<(), String> {
     for _ in 0..2 {
         let actual = device.render_with(&mut renderer, &scene, &plan, options, &mut None).map_err(|e| e.to_string())?;
         agree(&expected, &actual)?;
-        if renderer.reserved_fragments() < fragments as u64 {
-            return Err(format!(
-                "{} fragments in the lists, and the view has {fragments}",
-                renderer.reserved_fragments()
-            ));
+        let reserved = renderer.reserved().fragments;
+        if reserved < fragments as u64 {
+            return Err(format!("{reserved} fragments in the lists, and the view has {fragments}"));
         }
     }
     Ok(())
