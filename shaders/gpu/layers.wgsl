@@ -106,14 +106,14 @@ fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, point: vec2f) {
         return;
     }
     let line = mesh_line(part, point);
-    var crossing = next_in_mesh(part, line, 0u);
+    var crossing = first_in_mesh(part, line);
     var count = 0u;
     while crossing.found {
         if count < parts[part].crossing_room {
             put_crossing(g, number, crossing.t);
         }
         count += 1u;
-        crossing = next_in_mesh(part, line, crossing.next);
+        crossing = next_in_mesh(part, line, crossing);
     }
     if count > parts[part].crossing_room {
         // The frame is drawn again with more room.

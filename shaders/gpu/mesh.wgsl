@@ -3,9 +3,11 @@
 // The mesh is seen along the ray, after Woop, Benthin and Wald (2013), "Watertight Ray/Triangle Intersection": a corner
 // becomes one point of the plane across the ray, and an edge one number, whichever triangle asks.
 
-// The words of a node in `lens_words`: the middle and half the size of its box, the node to go on with where the ray
-// misses it, and its triangle plus one (0: it has children, the first of which follows it).
+// Words of a node in `lens_words`, twin of `lens::MeshNode`: the lower corner of its box, its first triangle (a leaf) or
+// the node to go on with where the ray misses it (an inner node), the upper corner, how many triangles (0: inner node).
 const NODE_WORDS: u32 = 8u;
+// Boxes are larger by this, so that rounding loses no triangle of a mesh between -1 and 1.
+const BOX_PADDING: f32 = 4e-6;
 
 // A ray in the mesh's own space.
 struct MeshLine {
@@ -21,8 +23,8 @@ struct MeshLine {
 struct MeshCrossing {
     t: f32,
     triangle: u32,
-    // The node to go on with.
-    next: u32,
+    // Its node; where to go on.
+    node: u32,
     found: bool,
 }
 
@@ -39,33 +41,44 @@ fn lens_vector(at: u32) -> vec3f {
     return vec3f(bitcast<f32>(lens_words[at]), bitcast<f32>(lens_words[at + 1u]), bitcast<f32>(lens_words[at + 2u]));
 }
 
-// The next crossing in the order of the nodes, from node `start` on.
-fn next_in_mesh(part: u32, line: MeshLine, start: u32) -> MeshCrossing {
-    let count = parts[part].node_count;
-    var node = start;
-    while node < count {
+// The first crossing in the order of the triangles.
+fn first_in_mesh(part: u32, line: MeshLine) -> MeshCrossing {
+    return crossing_from(part, line, 0u, 0u);
+}
+
+// The one after another.
+fn next_in_mesh(part: u32, line: MeshLine, last: MeshCrossing) -> MeshCrossing {
+    return crossing_from(part, line, last.node, last.triangle + 1u);
+}
+
+// One walk over the nodes in their order, children after their parents, visits all boxes that the ray meets; it may
+// start anywhere.
+fn crossing_from(part: u32, line: MeshLine, first_node: u32, first_triangle: u32) -> MeshCrossing {
+    var node = first_node;
+    while node < parts[part].node_count {
         let at = parts[part].first_node + node * NODE_WORDS;
-        if !meets_box(line, lens_vector(at), lens_vector(at + 3u)) {
-            node = lens_words[at + 6u];
-            continue;
-        }
-        node += 1u;
-        let triangle = lens_words[at + 7u];
-        if triangle != 0u {
-            var crossing = triangle_crossing(part, line, triangle - 1u);
-            if crossing.found {
-                crossing.next = node;
-                return crossing;
+        let first = lens_words[at + 3u];
+        let count = lens_words[at + 7u];
+        if meets_box(line, lens_vector(at), lens_vector(at + 4u)) {
+            for (var triangle = max(first, first_triangle); triangle < first + count; triangle += 1u) {
+                let crossing = triangle_crossing(part, line, triangle);
+                if crossing.found {
+                    return MeshCrossing(crossing.t, triangle, node, true);
+                }
             }
+            node += 1u;
+        } else {
+            node = select(node + 1u, first, count == 0u);
         }
     }
-    return MeshCrossing(0.0, 0u, count, false);
+    return MeshCrossing(0.0, 0u, node, false);
 }
 
 // Whether an endless line meets a box: no axis across the line and a side of the box separates them.
-fn meets_box(line: MeshLine, middle: vec3f, half: vec3f) -> bool {
+fn meets_box(line: MeshLine, low: vec3f, high: vec3f) -> bool {
+    let half = 0.5 * (high - low) + BOX_PADDING;
     let d = abs(line.direction);
-    let away = abs(cross(line.direction, middle - line.origin));
+    let away = abs(cross(line.direction, 0.5 * (low + high) - line.origin));
     return all(away <= half.yzx * d.zxy + half.zxy * d.yzx);
 }
 
@@ -82,18 +95,23 @@ fn seen_corner(part: u32, line: MeshLine, index: u32) -> SeenCorner {
     return SeenCorner(index, vec2f(dot(line.u, p), dot(line.v, p)), dot(line.direction, p));
 }
 
-fn triangle_crossing(part: u32, line: MeshLine, triangle: u32) -> MeshCrossing {
+struct TriangleCrossing {
+    t: f32,
+    found: bool,
+}
+
+fn triangle_crossing(part: u32, line: MeshLine, triangle: u32) -> TriangleCrossing {
     let at = parts[part].first_triangle + 3u * triangle;
     let a = seen_corner(part, line, lens_words[at]);
     let b = seen_corner(part, line, lens_words[at + 1u]);
     let c = seen_corner(part, line, lens_words[at + 2u]);
     let left = vec3<bool>(is_left(b, c), is_left(c, a), is_left(a, b));
     if any(left) && !all(left) {
-        return MeshCrossing(0.0, 0u, 0u, false);
+        return TriangleCrossing(0.0, false);
     }
     let weights = vec3f(edge_value(b, c), edge_value(c, a), edge_value(a, b));
     let along = dot(weights, vec3f(a.along, b.along, c.along)) / (weights.x + weights.y + weights.z);
-    return MeshCrossing(line.shift + along / dot(line.direction, line.direction), triangle, 0u, true);
+    return TriangleCrossing(line.shift + along / dot(line.direction, line.direction), true);
 }
 
 // Twice the area between the ray and an edge; from the other end it is the same number with the other sign.
@@ -146,13 +164,13 @@ fn mesh_span(part: u32, at: vec2f, depth: f32) -> Span {
 // The nearest crossing behind another; at one depth the order of the triangles counts.
 fn crossing_behind(part: u32, line: MeshLine, after: MeshCrossing) -> MeshCrossing {
     var best = MeshCrossing(FAR_AWAY, NONE, 0u, false);
-    var crossing = next_in_mesh(part, line, 0u);
+    var crossing = first_in_mesh(part, line);
     while crossing.found {
         let behind = crossing.t > after.t || (crossing.t == after.t && crossing.triangle > after.triangle);
         if behind && (crossing.t < best.t || (crossing.t == best.t && crossing.triangle < best.triangle)) {
             best = crossing;
         }
-        crossing = next_in_mesh(part, line, crossing.next);
+        crossing = next_in_mesh(part, line, crossing);
     }
     return best;
 }
