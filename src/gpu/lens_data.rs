@@ -132,7 +132,7 @@ impl LensData {
                     self.vectors.push(extended((to_world * plane.normal).normalize_or_zero()));
                 }
             }
-            Form::Empty => record.form = records::FORM_EMPTY,
+            Form::Mesh(_) | Form::Empty => record.form = records::FORM_EMPTY,
         }
     }
 }
