@@ -4,7 +4,6 @@ use super::depth_maps::DepthMaps;
 use super::part_data::PartData;
 use super::program::program;
 use super::records::{self, LensRecord, words_of};
-use crate::lens::{Tree, Volume};
 use crate::plan::Plan;
 
 /// Records of all lenses and of their parts.
@@ -24,7 +23,7 @@ impl LensData {
             for solid in &lens.volume.parts {
                 data.parts.add(&plan.view, rank, solid, maps, crossings);
             }
-            let program = if is_simple(&lens.volume) { vec![] } else { program(&lens.volume.tree) };
+            let program = if lens.volume.lone().is_some() { vec![] } else { program(&lens.volume.tree) };
             let mut record = LensRecord {
                 first_part,
                 part_count: lens.volume.parts.len() as u32,
@@ -46,9 +45,4 @@ impl LensData {
         }
         data
     }
-}
-
-/// Whether a ray has one interval in it at the most, that of its only part.
-fn is_simple(volume: &Volume) -> bool {
-    matches!(volume.tree, Tree::Part(_))
 }

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::depth_maps::{DepthMap, DepthMaps};
 use super::records::{self, PartRecord, extended};
-use crate::lens::{Form, Plane, Solid};
+use crate::lens::{Form, MeshSolid, Plane, Solid};
 use crate::view::View;
 
 /// Parts with the vectors that they point into.
@@ -77,7 +77,6 @@ impl PartData {
             normal_y: extended(normals.y_axis),
             normal_z: extended(normals.z_axis),
             lens: rank,
-            crossing_room: crossings,
             ..bytemuck::Zeroable::zeroed()
         };
         if solid.is_flat {
@@ -87,6 +86,10 @@ impl PartData {
             self.vectors.extend(solid.hull.iter().map(|p| extended(*p - view.eye)));
         }
         self.set_form(&mut record, solid, &ray, perspective);
+        if let Form::Mesh(mesh) = &solid.form {
+            self.set_mesh(&mut record, mesh);
+            record.crossing_room = crossings;
+        }
         if let Some(map) = maps.of_part(self.records.len()) {
             set_map(&mut record, map, solid.contains(view.eye));
         }
@@ -115,8 +118,19 @@ impl PartData {
                     self.vectors.push(extended((to_world * plane.normal).normalize_or_zero()));
                 }
             }
+            Form::Mesh(_) => record.form = records::FORM_MESH,
             Form::Empty => record.form = records::FORM_EMPTY,
         }
+    }
+
+    fn set_mesh(&mut self, record: &mut PartRecord, mesh: &MeshSolid) {
+        record.first_node = self.words.len() as u32;
+        record.node_count = mesh.nodes.len() as u32;
+        self.words.extend_from_slice(bytemuck::cast_slice(&mesh.nodes));
+        record.first_triangle = self.words.len() as u32;
+        self.words.extend_from_slice(mesh.triangles.as_flattened());
+        record.first_vertex = self.words.len() as u32;
+        self.words.extend(mesh.vertices.iter().flat_map(|v| v.as_vec3().to_array()).map(f32::to_bits));
     }
 }
 

@@ -16,6 +16,7 @@ pub const FORM_SPHERE: u32 = 1;
 pub const FORM_CONE: u32 = 2;
 pub const FORM_CAPSULE: u32 = 3;
 pub const FORM_HALF_SPACES: u32 = 4;
+pub const FORM_MESH: u32 = 5;
 
 pub const LENS_GLASS: u32 = 1;
 

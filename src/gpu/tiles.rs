@@ -45,7 +45,7 @@ impl Tiles {
                 }
             }
         }
-        let room = |_: (&Lens, &Solid)| if false { crossings } else { 2 };
+        let room = |(_, solid): (&Lens, &Solid)| if solid.form.is_convex() { 2 } else { crossings };
         Self::from_lists(&lists, &parts().map(room).collect::<Vec<u32>>(), set_words)
     }
 
