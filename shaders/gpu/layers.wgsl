@@ -52,11 +52,6 @@ fn flip(around: ptr<function, Set>, rank: u32) {
     (*around).words[rank / 32u] ^= 1u << (rank % 32u);
 }
 
-// Whether a boundary is another one than the boundary at `first` before it.
-fn starts_boundary(first: f32, depth: f32) -> bool {
-    return depth - first > MERGE * abs(first);
-}
-
 // The boundaries of a lens that is one convex part.
 fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, part: u32, point: vec2f) {
     let rank = parts[part].lens;
