@@ -12,5 +12,5 @@ pub use build::{Placement, build_volume};
 pub use form::{Crossing, Form, Span};
 pub use halfspaces::{Plane, Polyhedron};
 pub use layers::{LayerStart, RayLayers};
-pub use set::{LensSet, MAX_LENSES};
+pub use set::{LensSet, MAX_LENSES, MAX_RULES};
 pub use volume::{Interval, PixelRect, Volume};

@@ -75,6 +75,12 @@ impl Volume {
         self.form.contains(self.local_from_world.transform_point3(p))
     }
 
+    /// Distance in world units from a point to the nearest boundary, positive inside; of first order where the volume
+    /// is scaled unevenly.
+    pub fn depth_inside(&self, p: DVec3) -> f64 {
+        self.form.depth_inside(self.local_from_world.transform_point3(p), &self.local_from_world.matrix3.transpose())
+    }
+
     /// Outward unit normal in the world where a ray crosses the surface.
     pub fn normal(&self, ray: &Ray, crossing: &Crossing) -> DVec3 {
         let local = self.form.normal(crossing.face, self.local_from_world.transform_point3(ray.at(crossing.t)));
