@@ -39,6 +39,13 @@ pub struct Span {
     pub exit: Crossing,
 }
 
+impl Span {
+    /// The span if more of it than a point lies between two planes.
+    pub fn between(self, near: f64, far: f64) -> Option<Span> {
+        (self.entry.t.max(near) < self.exit.t.min(far)).then_some(self)
+    }
+}
+
 const CONE_SIDE: u32 = 2;
 
 impl Form {

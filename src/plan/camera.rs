@@ -148,22 +148,22 @@ pub(super) fn fit_depths(
 }
 
 fn fitted(view: &View, spec: &Spec, scene: &Scene, volumes: &[Option<Placed>], order: &[usize]) -> (f64, f64) {
-    let hulls = volumes.iter().flatten().flat_map(|placed| placed.volume.hull.iter().copied());
+    let hulls = volumes.iter().flatten().flat_map(|placed| placed.volume.hull());
     let models = scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty()).flat_map(|b| b.corners());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     // Whatever lenses move is seen inside them only, but a flat lens reaches as far as there is something to see.
-    let mut seen = Aabb::from_points(models.clone().chain(hulls.clone()));
-    let mut moved = Vec::new();
+    let mut points: Vec<DVec3> = models.chain(hulls).collect();
+    let mut seen = Aabb::from_points(points.iter().copied());
     for index in order {
-        let Some(placed) = volumes[*index].as_ref().filter(|placed| placed.volume.is_flat) else { continue };
+        let Some(placed) = volumes[*index].as_ref().filter(|placed| placed.volume.is_flat()) else { continue };
         for filter in &spec.lenses[*index].filters {
             if let Some(reach) = instances::reach(&filter.value, placed, &seen) {
-                moved.extend(reach.corners());
+                points.extend(reach.corners());
                 seen = seen.union(reach);
             }
         }
     }
-    for depth in models.chain(hulls).chain(moved).map(|p| view.depth(p)) {
+    for depth in points.into_iter().map(|p| view.depth(p)) {
         low = low.min(depth);
         high = high.max(depth);
     }

@@ -60,7 +60,7 @@ impl Instance {
     /// This, seen through one more mover above all others.
     fn through(&self, rank: usize, movement: &DAffine3, lens_bounds: &Aabb) -> Option<Self> {
         let shown = Aabb::from_points(self.bounds.corners().map(|p| movement.transform_point3(p)));
-        let bounds = shown.intersection(lens_bounds);
+        let bounds = shown.intersection(*lens_bounds);
         if bounds.is_empty() {
             return None;
         }

@@ -95,7 +95,7 @@ fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Pl
         let message = format!("the shape of lens `{}` has no volume: {reason}", lens.name.value);
         InputError::at(&spec.source, lens.shape.span.clone(), message)
     })?;
-    if !(volume.world_from_local.is_finite() && volume.local_from_world.is_finite()) {
+    if !volume.parts.iter().all(|part| part.world_from_local.is_finite() && part.local_from_world.is_finite()) {
         let message = format!("the numbers of lens `{}` are too large or too small to compute with", lens.name.value);
         return Err(InputError::at(&spec.source, lens.shape.span.clone(), message));
     }
@@ -135,7 +135,7 @@ pub(super) fn ranks(spec: &Spec, volumes: &[Option<Placed>], view: &View) -> Vec
         .map(|(lens, volume)| Rank {
             enabled: lens.enabled,
             priority: lens.priority,
-            flat: volume.as_ref().map(|p| &p.volume).filter(|v| v.is_flat).map(|v| match view.projection {
+            flat: volume.as_ref().map(|p| &p.volume).filter(|v| v.is_flat()).map(|v| match view.projection {
                 Projection::Perspective { .. } => v.center.distance(view.eye),
                 Projection::Orthographic { .. } => view.depth(v.center),
             }),

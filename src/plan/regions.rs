@@ -167,8 +167,9 @@ impl Plan {
         let mut probes = Vec::new();
         for rank in self.by_pixel.iter() {
             let lens = &self.lenses[rank];
-            if !lens.volume.is_flat {
-                axis_probes(&lens.volume.bounds(), grid, &mut probes);
+            let bounds = lens.volume.bounds();
+            if !bounds.is_empty() && bounds.size().is_finite() {
+                axis_probes(&bounds, grid, &mut probes);
             }
             let (min, max) = (lens.rect.min.map(f64::from), lens.rect.max.map(f64::from));
             for (u, v) in grid_points(grid) {

@@ -248,7 +248,7 @@ impl Aabb {
         Aabb { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    pub fn intersection(self, other: &Self) -> Self {
+    pub fn intersection(self, other: Self) -> Self {
         Aabb { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
