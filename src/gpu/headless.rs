@@ -10,7 +10,7 @@ use super::renderer::Renderer;
 use super::targets::FRAGMENT_BYTES;
 use super::upload::check_size;
 use super::{AdapterChoice, Error, RenderOptions, Room, Window, aov, caps};
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, RegionTable};
 use crate::lens::LayerStart;
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -47,6 +47,7 @@ struct Picture {
     size: [u32; 2],
     pixels: Vec<[u8; 4]>,
     aovs: Option<Aovs>,
+    table: RegionTable,
 }
 
 impl Headless {
@@ -102,6 +103,7 @@ impl Headless {
             size,
             pixels: vec![[0; 4]; size[0] as usize * size[1] as usize],
             aovs: options.aovs.then(|| Aovs::empty(size)),
+            table: RegionTable::default(),
         };
         let mut windows = vec![Window::whole(&plan.view)];
         while let Some(window) = windows.pop() {
@@ -109,6 +111,9 @@ impl Headless {
                 Err(error) => windows.extend(smaller(&window, error)?),
                 Ok(()) => continue,
             }
+        }
+        if let Some(aovs) = &mut picture.aovs {
+            aovs.table = picture.table.table;
         }
         Ok(Frame { size, pixels: picture.pixels, aovs: picture.aovs })
     }
@@ -203,7 +208,14 @@ impl Headless {
         if job.room.holds(needed) {
             picture.store(&job.window, &pixels.bytes(&self.device)?);
             if let (Some(aovs), Some(maps)) = (&mut picture.aovs, maps) {
-                aov::store(aovs, picture.size[0], &job.window, job.words, &maps.bytes(&self.device)?);
+                aov::store(
+                    aovs,
+                    &mut picture.table,
+                    picture.size[0],
+                    &job.window,
+                    job.words,
+                    &maps.bytes(&self.device)?,
+                );
             }
         }
         if let Some(timings) = timings {

@@ -55,8 +55,8 @@ pub struct FrameRecord {
     pub fragment_capacity: u32,
     pub active_tiles: u32,
     pub target_is_srgb: u32,
-    pub by_pixel: [u32; 8],
-    pub translucent: [u32; 8],
+    pub by_pixel: [u32; 12],
+    pub translucent: [u32; 12],
 }
 
 /// One item or a chunk of its triangles; its masks follow.
@@ -155,11 +155,11 @@ pub struct TextureInfo {
     pub levels: [[u32; 4]; 16],
 }
 
-/// Words of the sets that a plan needs on the device.
+/// Words of the sets that a plan needs on the device; a stack may hold a rule.
 pub fn set_words(plan: &Plan) -> SetWords {
     let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
     let most_parts = plan.lenses.iter().map(|lens| lens.volume.parts.len()).max();
-    SetWords { lenses: words(plan.lenses.len()), parts: words(most_parts.unwrap_or(1)) }
+    SetWords { lenses: words(plan.lenses.len() + plan.rules.len()), parts: words(most_parts.unwrap_or(1)) }
 }
 
 /// The words of a set.
@@ -168,7 +168,7 @@ pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
 }
 
 /// All words a set can have, for uniforms.
-pub fn all_words(set: &LensSet) -> [u32; 8] {
+pub fn all_words(set: &LensSet) -> [u32; 12] {
     std::array::from_fn(|i| set.word(i))
 }
 

@@ -115,6 +115,10 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
+        if plan.instances.len() > plan.items.len() || !plan.rules.is_empty() || plan.lenses.iter().any(|l| l.soft > 0.0)
+        {
+            return Err(Error::Device("movers, rules and soft lenses are not drawn by the GPU yet".into()));
+        }
         let words = set_words(plan);
         let tiles = Tiles::new(plan, &window, words.lenses, self.reserved.crossings);
         let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
