@@ -293,10 +293,12 @@ pub enum Filter {
         factor: f64,
         center: Option<[f64; 3]>,
     },
-    /// Moves nodes that match; an empty list: everything.
+    /// Moves nodes that match (an empty list: everything) by `offset`, along the scene's axes, and by `explode` times
+    /// the vector from the lens's centre to the centre of the node's bounds.
     Displace {
         nodes: Vec<At<Pattern>>,
-        by: Displacement,
+        offset: [f64; 3],
+        explode: f64,
     },
     Opacity {
         value: f32,
@@ -336,15 +338,6 @@ impl Filter {
     pub fn moves(&self) -> bool {
         matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
     }
-}
-
-/// How far `displace` moves a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Displacement {
-    /// Along the scene's axes.
-    Offset([f64; 3]),
-    /// So many times the vector from the lens's centre to the centre of the node's bounds.
-    Explode(f64),
 }
 
 /// What `show` puts in place of the scene.
