@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use crate::case::Case;
-use crate::generate::SIZE;
 use crate::oracle::{Expected, Oracle};
 use crate::product::{Party, Picture, Pixel};
 use crate::random::Random;
@@ -44,7 +43,7 @@ impl Answers {
         let mut random = Random::new(seed);
         let oracle = Oracle::new(case);
         let answer = |_| {
-            let at = SIZE.map(|side| random.index(side as usize) as u32);
+            let at = case.camera.size.map(|side| random.index(side as usize) as u32);
             (at, oracle.pixel(f64::from(at[0]) + 0.5, f64::from(at[1]) + 0.5))
         };
         Self((0..PIXELS).map(answer).collect())

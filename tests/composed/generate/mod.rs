@@ -29,26 +29,29 @@ pub fn has(feature: Feature) -> bool {
     ENABLED.contains(&feature)
 }
 
-/// Pixels of every picture.
-pub const SIZE: [u32; 2] = [64, 48];
-/// One case of so many has forty lenses.
+/// Pixels of a picture.
+const SIZE: [u32; 2] = [64, 48];
+/// One case of so many has many lenses; its picture is smaller, for the engine that draws every layer by itself.
 const CROWDED: usize = 20;
+const CROWD: usize = 40;
+const CROWDED_SIZE: [u32; 2] = [40, 30];
 
 pub fn case(seed: u64) -> Case {
     // Seeds that follow each other start far apart.
     let mut random = Random::new(seed.wrapping_mul(0xd134_2543_de82_ef95));
     let random = &mut random;
+    let is_crowded = random.index(CROWDED) == 0;
     let mut case = Case {
         models: scene::models(random),
         solids: if has(Feature::Meshes) { mesh::solids(random) } else { Vec::new() },
         hide: scene::hidden(random),
         cull: random.chance(0.15),
-        camera: camera(random),
+        camera: camera(if is_crowded { CROWDED_SIZE } else { SIZE }, random),
         background: if random.chance(0.15) { [0; 4] } else { opaque(random) },
         lenses: Vec::new(),
         rules: Vec::new(),
     };
-    let count = if random.index(CROWDED) == 0 { 40 } else { 2 + random.index(11) };
+    let count = if is_crowded { CROWD } else { 2 + random.index(11) };
     lens::add(&mut case, count, random);
     if has(Feature::Rules) && random.chance(0.25) {
         rule::add(&mut case, random);
@@ -56,7 +59,7 @@ pub fn case(seed: u64) -> Case {
     case
 }
 
-fn camera(random: &mut Random) -> Camera {
+fn camera(size: [u32; 2], random: &mut Random) -> Camera {
     let is_perspective = random.chance(0.7);
     // Sometimes among the things that it looks at.
     let distance = if random.chance(0.2) { random.between(0.2, 0.9) } else { random.between(1.8, 3.5) };
@@ -68,7 +71,7 @@ fn camera(random: &mut Random) -> Camera {
     };
     let near = random.chance(0.3).then(|| tidy(random.between(0.05, 0.9 * distance)));
     let far = random.chance(0.3).then(|| tidy(distance + random.between(0.0, 1.5)));
-    Camera { eye, target, up: rounded(direction(random)), projection, near, far, size: SIZE }
+    Camera { eye, target, up: rounded(direction(random)), projection, near, far, size }
 }
 
 fn opaque(random: &mut Random) -> Color {

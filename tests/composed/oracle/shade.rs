@@ -19,74 +19,121 @@ pub struct Shade {
 /// Pixels around the rim of a wire where its coverage is in doubt.
 const RIM: f64 = 1.0;
 
+/// How much farther than `soft` a boundary must be for a lens to act in full whatever its shape: distances are only of
+/// first order where it is stretched.
+const SURELY: f64 = 4.0;
+
+/// A filter of a stack and how much of it acts: all but where its lens fades (5.6), and there not always known.
+type Acting<'a> = (&'a Filter, Option<f64>);
+
+fn acting<'a>(stage: &Stage<'a>, hit: &Hit, met: &Met) -> Vec<Acting<'a>> {
+    let lenses = match &met.stack {
+        Stack::Rule(rule) => return stage.case.rules[*rule].filters.iter().map(|filter| (filter, Some(1.0))).collect(),
+        Stack::Lenses(lenses) => lenses,
+    };
+    let amount = |lens: usize| {
+        let (spec, placed) = (&stage.case.lenses[lens], &stage.composition.lenses[lens]);
+        if spec.soft == 0.0 {
+            return Some(1.0);
+        }
+        let at = if spec.by_object { stage.subjects[hit.subject].center } else { met.asked_at(lens) };
+        let exact = placed.depth_inside(at).map(|depth| (depth / spec.soft).clamp(0.0, 1.0));
+        exact.or_else(|| placed.contains_ball(at, SURELY * spec.soft).then_some(1.0))
+    };
+    let of = |lens: &usize| {
+        let amount = amount(*lens);
+        stage.case.lenses[*lens].filters.iter().map(move |filter| (filter, amount))
+    };
+    lenses.iter().flat_map(of).collect()
+}
+
+/// From what was to what a filter makes of it, as far as both are known.
+fn faded(before: Option<DVec3>, after: Option<DVec3>, amount: Option<f64>) -> Option<DVec3> {
+    if amount == Some(1.0) { after } else { Some(before?.lerp(after?, amount?)) }
+}
+
 pub fn shade(stage: &Stage, hit: &Hit, met: &Met, pixel: [f64; 2]) -> Shade {
+    let filters = acting(stage, hit, met);
+    let (color, opacity) = surface(stage, hit, &filters);
+    let shade = Shade { color: colored(color, &filters), opacity, covered: Some(true) };
+    wired(stage, met, shade, &filters, wire_distance(stage, hit, pixel))
+}
+
+/// Colour before colour filters, and opacity.
+fn surface(stage: &Stage, hit: &Hit, filters: &[Acting]) -> (Option<DVec3>, f64) {
     let subject = &stage.subjects[hit.subject];
     let model = &stage.case.models[subject.model];
-    let primitive = &model.nodes[subject.node].primitives[subject.primitive];
-    let material = &model.materials[primitive.material];
-    let [r, g, b, alpha] = material.color;
-    let mut base = DVec3::new(r, g, b);
-    let mut unlit = material.unlit;
-    let mut known = true;
-    let mut opacity = alpha;
-    let filters: Vec<&Filter> = match &met.stack {
-        Stack::Rule(rule) => stage.case.rules[*rule].filters.iter().collect(),
-        Stack::Lenses(lenses) => lenses.iter().flat_map(|lens| &stage.case.lenses[*lens].filters).collect(),
-    };
-    for filter in &filters {
+    let material = &model.materials[model.nodes[subject.node].primitives[subject.primitive].material];
+    let [r, g, b, mut opacity] = material.color;
+    let mut base = Some(DVec3::new(r, g, b));
+    let mut lit = if material.unlit { 0.0 } else { 1.0 };
+    for (filter, amount) in filters {
+        let replaced = |base, color: &Color| faded(base, Some(linear(*color)), *amount);
+        let mut alpha = 1.0;
         match filter {
             Filter::Unlit(color) => {
-                unlit = true;
+                lit *= 1.0 - amount.unwrap_or(0.0);
                 if let Some(color) = color {
-                    (base, known) = (linear(*color), true);
+                    (base, alpha) = (replaced(base, color), alpha_of(*color));
                 }
-                opacity *= color.map_or(1.0, alpha_of);
             }
-            Filter::Material(color) => {
-                (base, known) = (linear(*color), true);
-                opacity *= alpha_of(*color);
+            Filter::Material(color) => (base, alpha) = (replaced(base, color), alpha_of(*color)),
+            Filter::Normals => {
+                lit *= 1.0 - amount.unwrap_or(0.0);
+                base = faded(base, None, *amount);
             }
-            Filter::Normals => (unlit, known) = (true, false),
-            Filter::Opacity(value) => opacity *= value,
-            Filter::Tint(color, _) => opacity *= alpha_of(*color),
+            Filter::Opacity(value) => alpha = *value,
+            Filter::Tint(color, _) => alpha = alpha_of(*color),
             _ => {}
         }
+        // Where the amount is not known some of it is: less than opaque is all that counts then, for the colour is not known.
+        opacity *= 1.0 + (alpha - 1.0) * amount.unwrap_or(0.5);
+        if amount.is_none() && alpha < 1.0 {
+            base = None;
+        }
     }
-    let mut color = (unlit && known).then_some(base);
-    for filter in &filters {
-        color = match filter {
-            Filter::Tint(tint, amount) => color.map(|c| c.lerp(linear(*tint), *amount)),
-            Filter::Grayscale(amount) => {
-                color.map(|c| c.lerp(DVec3::splat(c.dot(DVec3::new(0.2126, 0.7152, 0.0722))), *amount))
+    (base.filter(|_| lit == 0.0), opacity)
+}
+
+fn colored(mut color: Option<DVec3>, filters: &[Acting]) -> Option<DVec3> {
+    for (filter, amount) in filters {
+        let after = |c: DVec3| match filter {
+            Filter::Tint(tint, share) => c.lerp(linear(*tint), *share),
+            Filter::Grayscale(share) => c.lerp(DVec3::splat(c.dot(DVec3::new(0.2126, 0.7152, 0.0722))), *share),
+            Filter::Invert(share) => {
+                c.lerp(DVec3::from_array(c.to_array().map(|x| to_linear(1.0 - to_srgb(x)))), *share)
             }
-            Filter::Invert(amount) => color.map(|c| {
-                let inverted = c.to_array().map(|x| to_linear(1.0 - to_srgb(x)));
-                c.lerp(DVec3::from_array(inverted), *amount)
-            }),
-            _ => color,
+            _ => c,
         };
+        let is_of_this_stage = matches!(filter, Filter::Tint(..) | Filter::Grayscale(_) | Filter::Invert(_));
+        if is_of_this_stage {
+            color = faded(color, color.map(after), *amount);
+        }
     }
-    let mut covered = Some(true);
-    let distance = wire_distance(stage, hit, pixel);
-    for filter in &filters {
-        let Filter::Wireframe { width, color: wire, filled } = filter else { continue };
+    color
+}
+
+/// After the coverage filters; `distance` in pixels to the nearest edge of the triangle.
+fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], distance: f64) -> Shade {
+    for (filter, amount) in filters {
+        let Filter::Wireframe { width, color, filled } = filter else { continue };
         // Whether a magnifier above makes the lines wider is not said: both count as a rim.
         let widest = width * magnified(stage, met);
-        let on = match distance {
+        let on_wire = match distance {
             d if d < 0.5 * width - RIM => Some(true),
             d if d > 0.5 * widest + RIM => Some(false),
             _ => None,
         };
-        if *filled {
-            color = on.and_then(|on| if on { wire.map(linear).or(color) } else { color });
-        } else {
-            if let (Some(true), Some(wire)) = (on, wire) {
-                color = Some(linear(*wire));
-            }
-            covered = covered.and_then(|before| on.map(|on| before && on));
+        match on_wire {
+            Some(true) => shade.color = faded(shade.color, color.map(linear).or(shade.color), *amount),
+            Some(false) if *filled => {}
+            // Between the wires a lens that fades leaves some of the surface.
+            Some(false) => shade.covered = shade.covered.filter(|_| *amount == Some(1.0)).map(|_| false),
+            None if *filled => shade.color = None,
+            None => shade.covered = None,
         }
     }
-    Shade { color, opacity, covered }
+    shade
 }
 
 /// Pixels from a place of the picture to the nearest edge of a triangle, where it is shown.

@@ -186,6 +186,29 @@ impl Solid {
         }
     }
 
+    /// Distance from a point inside to the surface in the units of the world; of balls that are round there, of
+    /// half-spaces, and of intersections of both.
+    pub fn depth_inside(&self, p: DVec3, shape_from_world: &DMat3) -> Option<f64> {
+        match self {
+            Solid::Ellipsoid { center, ball_from_shape } => {
+                let ball_from_world = *ball_from_shape * *shape_from_world;
+                let squares = ball_from_world.transpose() * ball_from_world;
+                let square = squares.x_axis.x;
+                let is_round = squares.abs_diff_eq(DMat3::from_diagonal(DVec3::splat(square)), 1e-9 * square);
+                is_round.then(|| (1.0 - (*ball_from_shape * (p - *center)).length()) / square.sqrt())
+            }
+            Solid::Planes(planes) => {
+                let height = |(n, d): &(DVec3, f64)| (d - n.dot(p)) / (shape_from_world.transpose() * *n).length();
+                planes.iter().map(height).reduce(f64::min)
+            }
+            Solid::Compound(Compound::Intersection, parts) => {
+                let depths: Option<Vec<f64>> = parts.iter().map(|part| part.depth_inside(p, shape_from_world)).collect();
+                depths?.into_iter().reduce(f64::min)
+            }
+            _ => None,
+        }
+    }
+
     /// Parameters at which a line may enter or leave: every crossing of the surface is among them.
     pub fn crossings(&self, ray: &Ray, sight: &Sight) -> Vec<f64> {
         let Ray { origin: o, direction: d } = *ray;

@@ -57,6 +57,13 @@ pub struct Met {
     pub asked: Vec<(usize, DVec3)>,
 }
 
+impl Met {
+    /// Where a lens of the stack was asked.
+    pub fn asked_at(&self, lens: usize) -> DVec3 {
+        self.asked.iter().find(|(asked, _)| *asked == lens).expect("every lens of the stack was asked").1
+    }
+}
+
 /// Nothing is there, or what SEMANTICS leaves open.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
@@ -94,6 +101,11 @@ impl Lens {
         let middle_is_inside = |pair: &[f64]| self.contains(ray.at(0.5 * (pair[0] + pair[1])));
         let inside: Vec<bool> = ends.windows(2).map(middle_is_inside).collect();
         (1..inside.len()).filter(|i| inside[i - 1] != inside[*i]).map(|i| ends[i]).collect()
+    }
+
+    /// Distance from a point inside to the boundary in world units, where it is exact by plain geometry.
+    pub fn depth_inside(&self, p: DVec3) -> Option<f64> {
+        self.solid.depth_inside(self.shape_from_world.transform_point3(p), &self.shape_from_world.matrix3)
     }
 
     /// Whether everything within a distance of a point is inside, as some directions tell.
