@@ -46,8 +46,8 @@ struct Frame {
     // Not 0: the target encodes sRGB itself.
     target_is_srgb: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
-    by_pixel: array<vec4u, 2>,
-    translucent: array<vec4u, 2>,
+    by_pixel: array<vec4u, 3>,
+    translucent: array<vec4u, 3>,
 }
 
 const ITEM_TRANSLUCENT: u32 = 1u;

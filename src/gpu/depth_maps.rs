@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::Window;
-use crate::lens::{Form, PixelRect, Polyhedron, Volume};
+use crate::lens::{Form, PixelRect, Polyhedron, Solid};
 use crate::plan::Plan;
 
 /// From so many planes on, faces are drawn; below, each ray asks every plane.
@@ -48,15 +48,15 @@ impl DepthMaps {
         let mut maps = Self { first_word: layer_words, end_word: layer_words, ..Self::default() };
         for (rank, lens) in plan.lenses.iter().enumerate() {
             let rect = window.local(&lens.rect);
-            let Some(solid) = faces(&lens.volume).filter(|_| !rect.is_empty()) else { continue };
+            let Some(solid) = faces(&lens.volume.parts[0]).filter(|_| !rect.is_empty()) else { continue };
             maps.maps.push(DepthMap { rank, first: maps.end_word, rect });
             maps.end_word += 2 * rect.area();
-            maps.add_faces(rank, &lens.volume, &solid, plan.view.eye);
+            maps.add_faces(rank, &lens.volume.parts[0], &solid, plan.view.eye);
         }
         maps
     }
 
-    fn add_faces(&mut self, rank: usize, volume: &Volume, solid: &Polyhedron, eye: DVec3) {
+    fn add_faces(&mut self, rank: usize, volume: &Solid, solid: &Polyhedron, eye: DVec3) {
         let vertex = |corner: DVec3, face: usize| FaceVertex {
             corner: (volume.world_from_local.transform_point3(corner) - eye).as_vec3().to_array(),
             rank: rank as u32,
@@ -76,7 +76,7 @@ impl DepthMaps {
 }
 
 /// The faces of a volume that is drawn rather than asked plane by plane. Flat lenses are open to the far side.
-fn faces(volume: &Volume) -> Option<Polyhedron> {
+fn faces(volume: &Solid) -> Option<Polyhedron> {
     match &volume.form {
         Form::HalfSpaces { planes, .. } if planes.len() >= FROM_PLANES && !volume.is_flat => {
             Polyhedron::from_planes(planes).ok()

@@ -9,7 +9,7 @@ use super::readback::{Readback, row_bytes};
 use super::renderer::Renderer;
 use super::targets::FRAGMENT_BYTES;
 use super::{AdapterChoice, Error, RenderOptions, Window, aov, caps};
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, RegionTable};
 use crate::lens::LayerStart;
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -46,6 +46,7 @@ struct Picture {
     size: [u32; 2],
     pixels: Vec<[u8; 4]>,
     aovs: Option<Aovs>,
+    table: RegionTable,
 }
 
 impl Headless {
@@ -101,6 +102,7 @@ impl Headless {
             size,
             pixels: vec![[0; 4]; size[0] as usize * size[1] as usize],
             aovs: options.aovs.then(|| Aovs::empty(size)),
+            table: RegionTable::default(),
         };
         let mut windows = vec![Window::whole(&plan.view)];
         while let Some(window) = windows.pop() {
@@ -108,6 +110,9 @@ impl Headless {
                 Err(error) => windows.extend(smaller(&window, error)?),
                 Ok(()) => continue,
             }
+        }
+        if let Some(aovs) = &mut picture.aovs {
+            aovs.table = picture.table.table;
         }
         Ok(Frame { size, pixels: picture.pixels, aovs: picture.aovs })
     }
@@ -196,7 +201,14 @@ impl Headless {
         if needed <= job.fragment_capacity {
             picture.store(&job.window, &pixels.bytes(&self.device)?);
             if let (Some(aovs), Some(maps)) = (&mut picture.aovs, maps) {
-                aov::store(aovs, picture.size[0], &job.window, job.words, &maps.bytes(&self.device)?);
+                aov::store(
+                    aovs,
+                    &mut picture.table,
+                    picture.size[0],
+                    &job.window,
+                    job.words,
+                    &maps.bytes(&self.device)?,
+                );
             }
         }
         if let Some(timings) = timings {

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::depth_maps::{DepthMap, DepthMaps};
 use super::records::{self, LensRecord, extended, words_of};
-use crate::lens::{Form, Plane, Volume};
+use crate::lens::{Form, Plane, Solid};
 use crate::plan::{Lens, Plan};
 use crate::view::View;
 
@@ -79,7 +79,7 @@ impl LensData {
     }
 
     fn record(&mut self, plan: &Plan, lens: &Lens, ray: &AffineRay) -> LensRecord {
-        let volume = &lens.volume;
+        let volume = &lens.volume.parts[0];
         let perspective = plan.view.is_perspective();
         let local_from_eye = volume.local_from_world * DAffine3::from_translation(plan.view.eye);
         let local = ray.in_space(&local_from_eye, perspective);
@@ -110,7 +110,7 @@ impl LensData {
         record
     }
 
-    fn set_form(&mut self, record: &mut LensRecord, volume: &Volume, ray: &AffineRay, perspective: bool) {
+    fn set_form(&mut self, record: &mut LensRecord, volume: &Solid, ray: &AffineRay, perspective: bool) {
         match &volume.form {
             Form::Sphere => record.form = records::FORM_SPHERE,
             Form::Cone { r0, r1 } => {

@@ -52,8 +52,8 @@ pub struct FrameRecord {
     pub fragment_capacity: u32,
     pub active_tiles: u32,
     pub target_is_srgb: u32,
-    pub by_pixel: [u32; 8],
-    pub translucent: [u32; 8],
+    pub by_pixel: [u32; 12],
+    pub translucent: [u32; 12],
 }
 
 /// One item or a chunk of its triangles; its masks follow.
@@ -143,7 +143,7 @@ pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
 }
 
 /// All words a set can have, for uniforms.
-pub fn all_words(set: &LensSet) -> [u32; 8] {
+pub fn all_words(set: &LensSet) -> [u32; 12] {
     std::array::from_fn(|i| set.word(i))
 }
 

@@ -115,7 +115,11 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
-        let words = set_words(plan.lenses.len());
+        if plan.instances.len() > plan.items.len() || !plan.rules.is_empty() || plan.lenses.iter().any(|l| l.soft > 0.0)
+        {
+            return Err(Error::Device("movers, rules and soft lenses are not drawn by the GPU yet".into()));
+        }
+        let words = set_words(plan.lenses.len() + plan.rules.len());
         let tiles = Tiles::new(plan, &window, words);
         let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
         let fragments = self.needed_fragments.max(first_guess(plan, &window));
@@ -235,7 +239,7 @@ impl Renderer {
         items: &[u8],
         frames: &[u8],
     ) -> Result<wgpu::BindGroup, Error> {
-        let words = set_words(plan.lenses.len());
+        let words = set_words(plan.lenses.len() + plan.rules.len());
         let lens_data = LensData::new(plan, words, depth_maps);
         let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let uniform = wgpu::BufferUsages::UNIFORM;

@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::halfspaces::NotSolid;
 use super::hull::hull_planes;
-use super::{Form, Plane, Polyhedron, Volume};
+use super::{Form, Plane, Polyhedron, Solid, Volume};
 use crate::scene::Aabb;
 use crate::spec::{Rotation, Shape};
 use crate::view::{Projection, View};
@@ -46,6 +46,10 @@ pub fn build_volume(shape: &Shape, placement: &Placement, view: &View) -> Result
     if !(world.matrix3.determinant().abs() > 1e-30 && world.is_finite()) {
         return Err("its scale, rotation and the node it is attached to leave no volume".into());
     }
+    Ok(part(shape, world, view)?.into())
+}
+
+fn part(shape: &Shape, world: DAffine3, view: &View) -> Result<Solid, String> {
     let v = DVec3::from_array;
     match shape {
         Shape::Sphere { center, radius } => Ok(ball(world, v(*center), DQuat::IDENTITY, DVec3::splat(*radius))),
@@ -68,11 +72,11 @@ pub fn build_volume(shape: &Shape, placement: &Placement, view: &View) -> Result
     }
 }
 
-/// A volume bounded by the hull of `corners` in its canonical space; its centre is the middle of their bounds.
-fn solid(form: Form, world_from_local: DAffine3, corners: Vec<DVec3>) -> Volume {
+/// A solid bounded by the hull of `corners` in its canonical space; its centre is the middle of their bounds.
+fn solid(form: Form, world_from_local: DAffine3, corners: Vec<DVec3>) -> Solid {
     let center = Aabb::from_points(corners.iter().copied()).center();
     let hull = corners.iter().map(|p| world_from_local.transform_point3(*p)).collect();
-    Volume::new(form, world_from_local, hull, world_from_local.transform_point3(center), false)
+    Solid::new(form, world_from_local, hull, world_from_local.transform_point3(center), false)
 }
 
 /// Corners of the cube from `low` to 1.
@@ -84,7 +88,7 @@ fn cube_planes() -> Vec<Plane> {
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).collect()
 }
 
-fn ball(world: DAffine3, center: DVec3, rotation: DQuat, radii: DVec3) -> Volume {
+fn ball(world: DAffine3, center: DVec3, rotation: DQuat, radii: DVec3) -> Solid {
     let pose = DAffine3::from_scale_rotation_translation(radii, rotation, center);
     solid(Form::Sphere, world * pose, unit_corners(-1.0))
 }
@@ -96,20 +100,20 @@ fn axis_pose(from: DVec3, to: DVec3, radial: f64, along: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_cols(x * radial, y * radial, z * along), from)
 }
 
-fn cone(world: DAffine3, from: DVec3, to: DVec3, r0: f64, r1: f64) -> Volume {
+fn cone(world: DAffine3, from: DVec3, to: DVec3, r0: f64, r1: f64) -> Solid {
     let radius = r0.max(r1);
     let pose = axis_pose(from, to, radius, from.distance(to));
     let corners = Aabb { min: DVec3::new(-1.0, -1.0, 0.0), max: DVec3::ONE }.corners().to_vec();
     solid(Form::Cone { r0: r0 / radius, r1: r1 / radius }, world * pose, corners)
 }
 
-fn capsule(world: DAffine3, from: DVec3, to: DVec3, radius: f64) -> Volume {
+fn capsule(world: DAffine3, from: DVec3, to: DVec3, radius: f64) -> Solid {
     let length = from.distance(to) / radius;
     let corners = Aabb { min: DVec3::NEG_ONE, max: DVec3::new(1.0, 1.0, length + 1.0) }.corners().to_vec();
     solid(Form::Capsule { length }, world * axis_pose(from, to, radius, radius), corners)
 }
 
-fn polytope(world: DAffine3, planes: &[[f64; 4]]) -> Result<Volume, String> {
+fn polytope(world: DAffine3, planes: &[[f64; 4]]) -> Result<Solid, String> {
     let planes: Vec<Plane> = planes.iter().map(|[x, y, z, d]| Plane::new(DVec3::new(*x, *y, *z), *d)).collect();
     let faces = Polyhedron::from_planes(&planes).map_err(|reason| match reason {
         NotSolid::Unbounded => "its planes leave a side open, and a polytope must be bounded".to_string(),
@@ -119,7 +123,7 @@ fn polytope(world: DAffine3, planes: &[[f64; 4]]) -> Result<Volume, String> {
 }
 
 /// What the eye sees through a polygon (SEMANTICS 2.5): a cone of planes through the eye, cut by the polygon's own plane.
-fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) -> Result<Volume, String> {
+fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) -> Result<Solid, String> {
     let corners: Vec<DVec3> = corners.iter().map(|c| DVec3::from_array(*c)).collect();
     let normal = polygon_normal(&corners)?;
     let center = corners.iter().sum::<DVec3>() / corners.len() as f64;
@@ -141,7 +145,7 @@ fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) 
     let hull = corners.iter().map(|p| world.transform_point3(*p)).collect();
     let world_center = world.transform_point3(center);
     if edge_on {
-        return Ok(Volume::new(Form::Empty, world, hull, world_center, true));
+        return Ok(Solid::new(Form::Empty, world, hull, world_center, true));
     }
     let mut planes: Vec<Plane> = (0..corners.len())
         .map(|i| {
@@ -159,7 +163,7 @@ fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) 
     if let Some(depth) = depth {
         planes.push(Plane::through(away, center + away * depth));
     }
-    Ok(Volume::new(Form::HalfSpaces { planes, hidden }, world, hull, world_center, true))
+    Ok(Solid::new(Form::HalfSpaces { planes, hidden }, world, hull, world_center, true))
 }
 
 /// Unit normal (Newell) of a polygon that is planar and convex, or what is wrong with it.

@@ -3,7 +3,7 @@
 //! Every solid is first brought to a canonical pose by an affine map, which keeps the parameter along the
 //! line. Working precision is f64: the boundaries found here are what both backends are judged by.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::Plane;
 
@@ -39,6 +39,13 @@ pub struct Span {
     pub exit: Crossing,
 }
 
+impl Span {
+    /// The span if more of it than a point lies between two planes.
+    pub fn between(self, near: f64, far: f64) -> Option<Span> {
+        (self.entry.t.max(near) < self.exit.t.min(far)).then_some(self)
+    }
+}
+
 const CONE_SIDE: u32 = 2;
 
 impl Form {
@@ -64,6 +71,30 @@ impl Form {
             Form::Capsule { length } => (p - nearest_on_axis(p, *length)).length_squared() <= 1.0,
             Form::HalfSpaces { planes, .. } => planes.iter().all(|plane| plane.distance(p) <= 0.0),
             Form::Empty => false,
+        }
+    }
+
+    /// Distance from a point to the nearest boundary in the space that `normals` takes normals to, positive inside:
+    /// for each smooth piece of the boundary its implicit function over its gradient. That is the distance itself
+    /// where the map is a similarity, or the solid has flat faces only.
+    pub fn depth_inside(&self, p: DVec3, normals: &DMat3) -> f64 {
+        let piece = |height: f64, outward: DVec3| height / (*normals * outward).length().max(f64::MIN_POSITIVE);
+        match self {
+            Form::Sphere => piece(1.0 - p.length(), p.normalize_or(DVec3::X)),
+            Form::Cone { r0, r1 } => {
+                let slope = r1 - r0;
+                let out = p.truncate().normalize_or(glam::DVec2::X);
+                let side = piece(r0 + slope * p.z - p.truncate().length(), out.extend(-slope));
+                side.min(piece(p.z, DVec3::NEG_Z)).min(piece(1.0 - p.z, DVec3::Z))
+            }
+            Form::Capsule { length } => {
+                let out = p - nearest_on_axis(p, *length);
+                piece(1.0 - out.length(), out.normalize_or(DVec3::X))
+            }
+            Form::HalfSpaces { planes, .. } => {
+                planes.iter().map(|plane| piece(-plane.distance(p), plane.normal)).fold(f64::INFINITY, f64::min)
+            }
+            Form::Empty => f64::NEG_INFINITY,
         }
     }
 

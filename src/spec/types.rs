@@ -157,6 +157,8 @@ pub struct LensSpec {
     pub by: By,
     pub only: Matches,
     pub except: Matches,
+    /// Width over which the effect fades in from the boundary, scene units; 0: a sharp one.
+    pub soft: f64,
     pub glass: Option<Glass>,
 }
 
@@ -286,6 +288,16 @@ pub enum Filter {
         materials: Vec<At<Pattern>>,
     },
     Show(ShowWhat),
+    /// Enlarges about `center` (in the shape's space; `None`: the lens's centre).
+    Magnify {
+        factor: f64,
+        center: Option<[f64; 3]>,
+    },
+    /// Moves nodes that match; an empty list: everything.
+    Displace {
+        nodes: Vec<At<Pattern>>,
+        by: Displacement,
+    },
     Opacity {
         value: f32,
     },
@@ -317,6 +329,22 @@ pub enum Filter {
         scale: [f32; 2],
     },
     Normals,
+}
+
+impl Filter {
+    /// Whether it moves content (SEMANTICS 5.2).
+    pub fn moves(&self) -> bool {
+        matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
+    }
+}
+
+/// How far `displace` moves a node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Displacement {
+    /// Along the scene's axes.
+    Offset([f64; 3]),
+    /// So many times the vector from the lens's centre to the centre of the node's bounds.
+    Explode(f64),
 }
 
 /// What `show` puts in place of the scene.

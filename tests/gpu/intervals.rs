@@ -78,7 +78,7 @@ fn hull(random: &mut Random) -> String {
 fn compare(device: &Headless, camera: &str, lenses: &str) -> Result<(), String> {
     let (scene, plan) = planned(SIZE, 1, camera, lenses);
     let hull = plan.lenses.last().ok_or("there are lenses")?;
-    if !matches!(&hull.volume.form, lenspeel::lens::Form::HalfSpaces { planes, .. } if planes.len() > 20) {
+    if !matches!(&hull.volume.parts[0].form, lenspeel::lens::Form::HalfSpaces { planes, .. } if planes.len() > 20) {
         return Err("the hull should have many faces".into());
     }
     let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;

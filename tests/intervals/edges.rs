@@ -7,14 +7,14 @@ use lenspeel::view::{Ray, View};
 
 use crate::camera::camera;
 use crate::random::Random;
-use crate::solid::{KINDS, Solid, direction, placement};
+use crate::solid::{KINDS, Solid, direction, only_interval, placement};
 
 const CASES: usize = 300;
 /// Where nothing is cut off.
 const PLANES: (f64, f64) = (-1e6, 1e6);
 
 fn interval(volume: &Volume, ray: &Ray) -> Option<Interval> {
-    volume.interval(ray, PLANES.0, PLANES.1)
+    only_interval(volume, ray, PLANES.0, PLANES.1)
 }
 
 /// A direction across a normal.

@@ -7,7 +7,7 @@ use lenspeel::view::{Ray, View};
 
 use crate::camera::camera;
 use crate::random::Random;
-use crate::solid::{KINDS, Solid, placement};
+use crate::solid::{KINDS, Solid, only_interval, placement};
 
 const CASES: usize = 400;
 const LENSES: usize = 6;
@@ -41,7 +41,7 @@ fn the_set_at_a_depth_is_that_of_the_intervals() {
         for _ in 0..10 {
             let ray = view.ray(random.between(0.0, 16.0), random.between(0.0, 16.0));
             let found = layers(&volumes, &ray, view.near, view.far);
-            let intervals: Vec<_> = volumes.iter().map(|v| v.interval(&ray, view.near, view.far)).collect();
+            let intervals: Vec<_> = volumes.iter().map(|v| only_interval(v, &ray, view.near, view.far)).collect();
             for _ in 0..10 {
                 let depth = random.between(view.near, view.far);
                 let near_boundary = |x: f64| (x - depth).abs() < 1e-4 * (1.0 + depth.abs());
@@ -92,7 +92,7 @@ fn the_entry_belongs_to_a_lens_and_the_exit_does_not() {
         let (volumes, view) = scattered(&mut random);
         let ray = view.ray(8.0, 8.0);
         for (rank, volume) in volumes.iter().enumerate() {
-            let Some(interval) = volume.interval(&ray, view.near, view.far) else { continue };
+            let Some(interval) = only_interval(volume, &ray, view.near, view.far) else { continue };
             let alone = layers(std::slice::from_ref(volume), &ray, view.near, view.far);
             assert!(alone.set_at(interval.entry).contains(0), "lens {rank} at its entry");
             assert!(interval.exit == view.far || !alone.set_at(interval.exit).contains(0), "lens {rank} at its exit");
