@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::case::Case;
-use crate::oracle::{Expected, Oracle};
+use crate::oracle::{Expected, Oracle, Stack, Visible};
 use crate::product::{Party, Picture, Pixel};
 use crate::random::Random;
 
@@ -17,24 +17,30 @@ const DEPTH: f64 = 1e-4;
 /// What the oracle says of some pixels; doubtful ones have nothing.
 pub struct Answers(Vec<([u32; 2], Option<Expected>)>);
 
-/// How much was compared.
+/// How many pixels were compared, and how many of them in which respect.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Tally {
     pub pixels: usize,
     pub doubtful: usize,
     pub colors: usize,
     pub layers: usize,
-    /// With something visible inside at least one lens.
-    pub lensed: usize,
+    /// With something visible inside at least one lens; two.
+    pub in_lens: usize,
+    pub in_lenses: usize,
+    pub moved: usize,
+    pub ruled: usize,
 }
 
-impl Tally {
-    pub fn add(&mut self, other: &Self) {
+impl std::ops::AddAssign for Tally {
+    fn add_assign(&mut self, other: Self) {
         self.pixels += other.pixels;
         self.doubtful += other.doubtful;
         self.colors += other.colors;
         self.layers += other.layers;
-        self.lensed += other.lensed;
+        self.in_lens += other.in_lens;
+        self.in_lenses += other.in_lenses;
+        self.moved += other.moved;
+        self.ruled += other.ruled;
     }
 }
 
@@ -50,14 +56,19 @@ impl Answers {
     }
 
     pub fn tally(&self) -> Tally {
-        let clear = || self.0.iter().filter_map(|(_, answer)| answer.as_ref());
-        let is_lensed = |e: &&Expected| e.visible.as_ref().is_some_and(|visible| !visible.set.is_empty());
+        let clear: Vec<&Expected> = self.0.iter().filter_map(|(_, answer)| answer.as_ref()).collect();
+        let visible = |is: &dyn Fn(&Visible) -> bool| {
+            clear.iter().filter_map(|e| e.visible.as_ref()).filter(|visible| is(visible)).count()
+        };
         Tally {
             pixels: self.0.len(),
-            doubtful: self.0.len() - clear().count(),
-            colors: clear().filter(|e| e.color.is_some()).count(),
-            layers: clear().filter(|e| e.layers.is_some()).count(),
-            lensed: clear().filter(is_lensed).count(),
+            doubtful: self.0.len() - clear.len(),
+            colors: clear.iter().filter(|e| e.color.is_some()).count(),
+            layers: clear.iter().filter(|e| e.layers.is_some()).count(),
+            in_lens: visible(&|v| !v.set.is_empty()),
+            in_lenses: visible(&|v| v.set.len() > 1),
+            moved: visible(&|v| v.is_moved),
+            ruled: visible(&|v| matches!(v.stack, Stack::Rule(_))),
         }
     }
 
@@ -87,7 +98,7 @@ fn differs(expected: &Expected, got: &Pixel) -> Option<&'static str> {
             if want.set != there.set {
                 return Some("the region");
             }
-            if there.stack.as_ref().is_some_and(|stack| *stack != want.stack) {
+            if want.stack != there.stack {
                 return Some("the stack");
             }
             if want.node != there.node {

@@ -47,8 +47,7 @@ pub struct Pixel {
 #[derive(Debug)]
 pub struct Visible {
     pub set: Vec<usize>,
-    /// `None` where the party does not tell.
-    pub stack: Option<Stack>,
+    pub stack: Stack,
     pub node: usize,
     pub depth: f64,
 }
@@ -69,13 +68,22 @@ impl Picture {
     pub fn pixel(&self, x: u32, y: u32) -> Pixel {
         let at = (y * self.frame.size[0] + x) as usize;
         let aovs = self.frame.aovs.as_ref().expect("AOVs were asked for");
-        let visible = aovs.sets[at].map(|set| Visible {
-            set: self.files(set),
-            stack: None,
+        let visible = aovs.table.get(aovs.regions[at] as usize).map(|region| Visible {
+            set: self.files(region.set),
+            stack: self.stack(region.stack),
             node: (aovs.nodes[at] as usize).wrapping_sub(1),
             depth: f64::from(aovs.depth[at]),
         });
         Pixel { visible, layers: aovs.layers[at].into(), color: self.frame.pixels[at] }
+    }
+
+    /// A rule stands alone in its stack, after all lenses.
+    fn stack(&self, stack: LensSet) -> Stack {
+        let lenses = self.opened.plan.lenses.len();
+        match stack.top().and_then(|top| top.checked_sub(lenses)) {
+            Some(rule) => Stack::Rule(rule),
+            None => Stack::Lenses(self.files(stack)),
+        }
     }
 
     fn files(&self, set: LensSet) -> Vec<usize> {

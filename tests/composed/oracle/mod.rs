@@ -36,6 +36,8 @@ pub struct Visible {
     /// S and the stack, by places in the file.
     pub set: Vec<usize>,
     pub stack: Stack,
+    /// Whether a mover brought it where it is shown.
+    pub is_moved: bool,
     pub node: usize,
     pub depth: f64,
 }
@@ -77,7 +79,8 @@ impl<'a> Oracle<'a> {
         let visible = sight.visible.map(|at| {
             let (hit, met, _) = &sight.fragments[at];
             let node = self.stage.subjects[hit.subject].node;
-            Visible { set: met.set.clone(), stack: met.stack.clone(), node, depth: hit.depth }
+            let is_moved = !met.moves.is_empty();
+            Visible { set: met.set.clone(), stack: met.stack.clone(), is_moved, node, depth: hit.depth }
         });
         let color = self.color(&sight, x, y);
         Some(Expected { visible, layers, color })

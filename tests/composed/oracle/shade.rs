@@ -55,7 +55,9 @@ fn faded(before: Option<DVec3>, after: Option<DVec3>, amount: Option<f64>) -> Op
 pub fn shade(stage: &Stage, hit: &Hit, met: &Met, pixel: [f64; 2]) -> Shade {
     let filters = acting(stage, hit, met);
     let (color, opacity) = surface(stage, hit, &filters);
-    let shade = Shade { color: colored(color, &filters), opacity, covered: Some(true) };
+    // A lens that fades out all there is: somewhere nothing is left.
+    let may_be_gone = filters.iter().any(|(filter, amount)| amount.is_none() && alpha_of(filter) == 0.0);
+    let shade = Shade { color: colored(color, &filters), opacity, covered: (!may_be_gone).then_some(true) };
     wired(stage, met, shade, &filters, wire_distance(stage, hit, pixel))
 }
 
@@ -67,32 +69,31 @@ fn surface(stage: &Stage, hit: &Hit, filters: &[Acting]) -> (Option<DVec3>, f64)
     let [r, g, b, mut opacity] = material.color;
     let mut base = Some(DVec3::new(r, g, b));
     let mut lit = if material.unlit { 0.0 } else { 1.0 };
+    let mut opacity_is_known = true;
     for (filter, amount) in filters {
-        let replaced = |base, color: &Color| faded(base, Some(linear(*color)), *amount);
-        let mut alpha = 1.0;
         match filter {
-            Filter::Unlit(color) => {
-                lit *= 1.0 - amount.unwrap_or(0.0);
-                if let Some(color) = color {
-                    (base, alpha) = (replaced(base, color), alpha_of(*color));
-                }
-            }
-            Filter::Material(color) => (base, alpha) = (replaced(base, color), alpha_of(*color)),
-            Filter::Normals => {
-                lit *= 1.0 - amount.unwrap_or(0.0);
-                base = faded(base, None, *amount);
-            }
-            Filter::Opacity(value) => alpha = *value,
-            Filter::Tint(color, _) => alpha = alpha_of(*color),
+            Filter::Unlit(Some(color)) | Filter::Material(color) => base = faded(base, Some(linear(*color)), *amount),
+            Filter::Normals => base = faded(base, None, *amount),
             _ => {}
         }
-        // Where the amount is not known some of it is: less than opaque is all that counts then, for the colour is not known.
-        opacity *= 1.0 + (alpha - 1.0) * amount.unwrap_or(0.5);
-        if amount.is_none() && alpha < 1.0 {
-            base = None;
+        if matches!(filter, Filter::Unlit(_) | Filter::Normals) {
+            lit *= 1.0 - amount.unwrap_or(0.0);
         }
+        // Where the amount is not known some of it is: less than opaque is all that counts then.
+        let alpha = alpha_of(filter);
+        opacity *= 1.0 + (alpha - 1.0) * amount.unwrap_or(0.5);
+        opacity_is_known &= amount.is_some() || alpha == 1.0;
     }
-    (base.filter(|_| lit == 0.0), opacity)
+    (base.filter(|_| lit == 0.0 && opacity_is_known), opacity)
+}
+
+/// What a filter multiplies the opacity by.
+fn alpha_of(filter: &Filter) -> f64 {
+    match filter {
+        Filter::Opacity(value) => *value,
+        Filter::Unlit(Some(color)) | Filter::Material(color) | Filter::Tint(color, _) => f64::from(color[3]) / 255.0,
+        _ => 1.0,
+    }
 }
 
 fn colored(mut color: Option<DVec3>, filters: &[Acting]) -> Option<DVec3> {
@@ -154,10 +155,6 @@ fn magnified(stage: &Stage, met: &Met) -> f64 {
         _ => 1.0,
     });
     factors.product()
-}
-
-fn alpha_of(color: Color) -> f64 {
-    f64::from(color[3]) / 255.0
 }
 
 pub fn linear([r, g, b, _]: Color) -> DVec3 {
