@@ -4,7 +4,7 @@
 const LAYER_WORDS: u32 = 1u + WORDS;
 
 fn layer_count(tile: TileRecord, pixel: vec2u) -> u32 {
-    if tile.lens_count == 0u {
+    if tile.part_count == 0u {
         return 1u;
     }
     return layers[layers_at(tile, pixel)];
@@ -24,7 +24,7 @@ fn layer_set(at: u32, layer: u32) -> Set {
 
 // The lenses around a depth: `entry <= depth < exit`.
 fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
-    if tile.lens_count == 0u {
+    if tile.part_count == 0u {
         return Set();
     }
     let at = layers_at(tile, pixel);

@@ -10,15 +10,13 @@ fn composited(pixel: vec2u) -> vec4f {
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
     var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var last_glass = GlassHit(-FAR_AWAY, 0u, false, no_span());
+    var glass = next_glass(tile, pixel, no_glass(-FAR_AWAY, 0u));
     loop {
         let pick = next_fragment(pixel, opaque, last);
-        let glass = next_glass(tile, at, last_glass);
-        if glass.found && glass.depth < pick.depth {
+        while glass.found && glass.depth < pick.depth {
             let color = glass_color(glass, at, ray);
             front = over(front, color.rgb, color.a);
-            last_glass = glass;
-            continue;
+            glass = next_glass(tile, pixel, glass);
         }
         if !pick.found {
             break;

@@ -1,4 +1,4 @@
-// Where a pixel's ray enters and leaves a lens volume: closed forms in the lens's own space, in f32.
+// Where a pixel's ray enters and leaves a part of a lens: closed forms in the part's own space, in f32.
 
 struct Span {
     entry: f32,
@@ -26,12 +26,12 @@ struct Anchored {
     shift: f32,
 }
 
-fn local_ray(rank: u32, at: vec2f) -> LocalRay {
-    let moving = lenses[rank].ray_base.xyz + lenses[rank].ray_dx.xyz * at.x + lenses[rank].ray_dy.xyz * at.y;
+fn local_ray(part: u32, at: vec2f) -> LocalRay {
+    let moving = parts[part].ray_base.xyz + parts[part].ray_dx.xyz * at.x + parts[part].ray_dy.xyz * at.y;
     if frame.perspective != 0u {
-        return LocalRay(lenses[rank].ray_fixed.xyz, moving);
+        return LocalRay(parts[part].ray_fixed.xyz, moving);
     }
-    return LocalRay(moving, lenses[rank].ray_fixed.xyz);
+    return LocalRay(moving, parts[part].ray_fixed.xyz);
 }
 
 // Starts a ray where it is nearest to `center`.
@@ -40,21 +40,21 @@ fn anchored(ray: LocalRay, center: vec3f) -> Anchored {
     return Anchored(ray.origin + ray.direction * shift, shift);
 }
 
-fn lens_span(rank: u32, at: vec2f) -> Span {
-    let ray = local_ray(rank, at);
+fn part_span(part: u32, at: vec2f) -> Span {
+    let ray = local_ray(part, at);
     var span = no_span();
-    switch lenses[rank].form {
+    switch parts[part].form {
         case FORM_SPHERE: {
             span = ball_span(ray, vec3f(0.0));
         }
         case FORM_CONE: {
-            span = cone_span(ray, lenses[rank].r0, lenses[rank].r1);
+            span = cone_span(ray, parts[part].r0, parts[part].r1);
         }
         case FORM_CAPSULE: {
-            span = capsule_span(ray, lenses[rank].length);
+            span = capsule_span(ray, parts[part].length);
         }
         case FORM_HALF_SPACES: {
-            span = half_space_span(rank, at);
+            span = half_space_span(part, at);
         }
         default: {
         }
@@ -167,18 +167,18 @@ fn united(a: Span, b: Span) -> Span {
     return Span(min(a.entry, b.entry), max(a.exit, b.exit), 0u, 0u, true);
 }
 
-fn half_space_span(rank: u32, at: vec2f) -> Span {
+fn half_space_span(part: u32, at: vec2f) -> Span {
     var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
-    if (lenses[rank].flags & LENS_DEPTH_MAP) != 0u {
-        let cell = map_cell(rank, at);
+    if (parts[part].flags & PART_DEPTH_MAP) != 0u {
+        let cell = map_cell(part, at);
         let entry = layers[cell];
         let exit = layers[cell + 1u];
-        let around_eye = (lenses[rank].flags & LENS_HOLDS_EYE) != 0u;
+        let around_eye = (parts[part].flags & PART_HOLDS_EYE) != 0u;
         if exit != 0u && (entry != 0u || around_eye) {
-            span.exit = plane_crossing(rank, exit - 1u, at).t;
+            span.exit = plane_crossing(part, exit - 1u, at).t;
             span.exit_face = exit - 1u;
             if entry != 0u {
-                span.entry = plane_crossing(rank, entry - 1u, at).t;
+                span.entry = plane_crossing(part, entry - 1u, at).t;
                 span.entry_face = entry - 1u;
             }
             return span;
@@ -188,8 +188,8 @@ fn half_space_span(rank: u32, at: vec2f) -> Span {
         }
         // A pixel between faces that rounding has torn apart: all planes are asked.
     }
-    for (var face = 0u; face < lenses[rank].plane_count; face += 1u) {
-        let crossing = plane_crossing(rank, face, at);
+    for (var face = 0u; face < parts[part].plane_count; face += 1u) {
+        let crossing = plane_crossing(part, face, at);
         if crossing.rate == 0.0 {
             if crossing.distance > 0.0 {
                 return no_span();
@@ -207,9 +207,9 @@ fn half_space_span(rank: u32, at: vec2f) -> Span {
     return span;
 }
 
-// The cell of a pixel in a lens's depth map: the entry face plus one, then the exit face plus one.
-fn map_cell(rank: u32, at: vec2f) -> u32 {
-    let low = lenses[rank].map_min;
-    let within = clamp(vec2u(at) - frame.window_min, low, low + lenses[rank].map_size - 1u) - low;
-    return lenses[rank].map_first + 2u * (within.y * lenses[rank].map_size.x + within.x);
+// The cell of a pixel in a part's depth map: the entry face plus one, then the exit face plus one.
+fn map_cell(part: u32, at: vec2f) -> u32 {
+    let low = parts[part].map_min;
+    let within = clamp(vec2u(at) - frame.window_min, low, low + parts[part].map_size - 1u) - low;
+    return parts[part].map_first + 2u * (within.y * parts[part].map_size.x + within.x);
 }

@@ -1,0 +1,7 @@
+//! Closed triangle meshes as lens volumes.
+
+mod line;
+mod nearest;
+mod solid;
+
+pub use solid::{MeshNode, MeshSolid};
