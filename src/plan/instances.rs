@@ -16,6 +16,8 @@ use crate::spec::{At, By, Filter, Pattern};
 
 /// The most ways in which one item may be shown.
 const MOST_WAYS: usize = 256;
+/// Of bounds, as a share of their largest coordinate; positions are f32 in a file.
+const ROUNDING: f64 = 1e-6;
 /// The most instances of a plan.
 const MOST_INSTANCES: usize = 1 << 20;
 
@@ -60,7 +62,7 @@ impl Instance {
     /// This, seen through one more mover above all others.
     fn through(&self, rank: usize, movement: &DAffine3, lens_bounds: &Aabb) -> Option<Self> {
         let shown = Aabb::from_points(self.bounds.corners().map(|p| movement.transform_point3(p)));
-        let bounds = shown.intersection(*lens_bounds);
+        let bounds = padded(shown).intersection(*lens_bounds);
         if bounds.is_empty() {
             return None;
         }
@@ -75,6 +77,12 @@ impl Instance {
             steps: std::iter::once(first).chain(rest).collect(),
         })
     }
+}
+
+/// Larger by more than rounding, so that a face on the bounds' side is not outside of them by another way of computing it.
+fn padded(bounds: Aabb) -> Aabb {
+    let pad = ROUNDING * bounds.min.abs().max(bounds.max.abs()).max_element();
+    Aabb { min: bounds.min - pad, max: bounds.max + pad }
 }
 
 /// Every item in place, in their order, then all that movers may show of them.
