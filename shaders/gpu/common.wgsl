@@ -10,6 +10,12 @@ const TILE: u32 = 16u;
 // Boundaries closer than this share of the depth are one.
 const MERGE: f32 = 1e-5;
 
+// Whether a boundary is another one than that at `first` before it.
+fn starts_boundary(first: f32, depth: f32) -> bool {
+    return depth - first > MERGE * abs(first);
+}
+
+
 // Twin of `records::FrameRecord`.
 struct Frame {
     // A ray is `fixed` and `base + x * dx + y * dy` at the point (x, y) of the whole picture, in pixels: origin and

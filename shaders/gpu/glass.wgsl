@@ -94,25 +94,6 @@ fn glass_face(hit: GlassHit) -> u32 {
     return select(hit.span.entry_face, hit.span.exit_face, hit.is_exit);
 }
 
-// The pixel and the crossing that `is_inside_part` is asked about.
-var<private> asked_at: vec2f;
-var<private> asked_depth: f32;
-var<private> asked_number: u32;
-var<private> asked_is_exit: bool;
-
-// Whether a part holds the ray just behind the crossing asked about; at one depth parts are crossed in their order.
-fn is_inside_part(rank: u32, number: u32) -> bool {
-    if number == asked_number {
-        return !asked_is_exit;
-    }
-    let span = span_around(lenses[rank].first_part + number, asked_at, asked_depth);
-    return span.hit && is_crossed(span.entry, number) && !is_crossed(span.exit, number);
-}
-
-fn is_crossed(depth: f32, number: u32) -> bool {
-    return depth < asked_depth || (depth == asked_depth && number < asked_number);
-}
-
 fn span_around(part: u32, at: vec2f, depth: f32) -> Span {
     if parts[part].form == FORM_MESH {
         return mesh_span(part, at, depth);
@@ -121,30 +102,42 @@ fn span_around(part: u32, at: vec2f, depth: f32) -> Span {
 }
 
 // The surface of a lens where it begins or ends at `depth`: of the first part whose crossing there makes a difference.
+// Goes from crossing to crossing, at one depth in the order of the parts, until the lens has changed.
 fn compound_glass(rank: u32, key: u32, at: vec2f, depth: f32) -> GlassHit {
-    asked_at = at;
-    var best = no_glass(depth, key);
     let merge = MERGE * abs(depth);
-    // Another lens may have drawn the boundary nearer by one merge, and another part of this one by one more.
-    var nearest = depth + 2.0 * merge;
-    for (var number = 0u; number < lenses[rank].part_count; number += 1u) {
-        let part = lenses[rank].first_part + number;
-        let span = span_around(part, at, depth);
-        for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
-            let t = select(span.entry, span.exit, side == 1u);
-            if t < depth - 0.1 * merge || t >= nearest {
-                continue;
-            }
-            asked_depth = t;
-            asked_number = number;
-            asked_is_exit = side == 1u;
-            if is_inside_lens(rank) == (key % 2u == 0u) {
-                nearest = t;
-                best = GlassHit(depth, key, true, part, span, side == 1u);
+    // Rounding may differ between passes; another lens may have drawn the boundary nearer by one merge, and another part
+    // of this one by one more.
+    var reached = depth - 0.1 * merge;
+    let last = depth + 2.0 * merge;
+    var hit = no_glass(depth, key);
+    var number = NONE;
+    loop {
+        // Which parts hold the ray there, and the next crossing.
+        inside_parts = array<u32, PART_WORDS>();
+        var next = no_glass(last, key);
+        var next_number = NONE;
+        for (var i = 0u; i < lenses[rank].part_count; i += 1u) {
+            let part = lenses[rank].first_part + i;
+            let span = span_around(part, at, depth);
+            for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
+                let t = select(span.entry, span.exit, side == 1u);
+                if t < reached || (t == reached && i <= number) {
+                    cross_part(i);
+                } else if t < next.depth {
+                    next = GlassHit(t, key, true, part, span, side == 1u);
+                    next_number = i;
+                }
             }
         }
+        if is_inside_lens(rank) == (key % 2u == 0u) || !next.found {
+            break;
+        }
+        reached = next.depth;
+        number = next_number;
+        hit = next;
     }
-    return best;
+    hit.depth = depth;
+    return hit;
 }
 
 // Its colour, with its opacity in alpha.

@@ -22,6 +22,11 @@ fn layer_set(at: u32, layer: u32) -> Set {
     return around;
 }
 
+// Whether a layer has begun at a depth; a boundary as close as two that merge is reached.
+fn is_begun(at: u32, layer: u32, depth: f32) -> bool {
+    return !starts_boundary(depth, layer_start(at, layer));
+}
+
 // The lenses around a depth: `entry <= depth < exit`.
 fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
     if tile.part_count == 0u {
@@ -29,7 +34,7 @@ fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
     }
     let at = layers_at(tile, pixel);
     for (var layer = layers[at]; layer > 0u; layer -= 1u) {
-        if layer_start(at, layer - 1u) <= depth {
+        if is_begun(at, layer - 1u, depth) {
             return layer_set(at, layer - 1u);
         }
     }

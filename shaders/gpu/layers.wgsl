@@ -52,22 +52,6 @@ fn flip(around: ptr<function, Set>, rank: u32) {
     (*around).words[rank / 32u] ^= 1u << (rank % 32u);
 }
 
-// Whether a boundary is another one than the boundary at `first` before it.
-fn starts_boundary(first: f32, depth: f32) -> bool {
-    return depth - first > MERGE * abs(first);
-}
-
-// Which parts of the lens at hand hold the point at hand.
-var<private> inside_parts: array<u32, PART_WORDS>;
-
-fn is_inside_part(rank: u32, number: u32) -> bool {
-    return (inside_parts[number / 32u] & (1u << (number % 32u))) != 0u;
-}
-
-fn cross_part(number: u32) {
-    inside_parts[number / 32u] ^= 1u << (number % 32u);
-}
-
 // The boundaries of a lens that is one convex part.
 fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, part: u32, point: vec2f) {
     let rank = parts[part].lens;
@@ -106,14 +90,17 @@ fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, point: vec2f) {
         return;
     }
     let line = mesh_line(part, point);
-    var crossing = first_in_mesh(part, line);
+    var crossing = before_mesh();
     var count = 0u;
-    while crossing.found {
+    loop {
+        crossing = next_in_mesh(part, line, crossing);
+        if !crossing.found {
+            break;
+        }
         if count < parts[part].crossing_room {
             put_crossing(g, number, crossing.t);
         }
         count += 1u;
-        crossing = next_in_mesh(part, line, crossing);
     }
     if count > parts[part].crossing_room {
         // The frame is drawn again with more room.

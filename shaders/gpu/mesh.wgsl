@@ -41,26 +41,21 @@ fn lens_vector(at: u32) -> vec3f {
     return vec3f(bitcast<f32>(lens_words[at]), bitcast<f32>(lens_words[at + 1u]), bitcast<f32>(lens_words[at + 2u]));
 }
 
-// The first crossing in the order of the triangles.
-fn first_in_mesh(part: u32, line: MeshLine) -> MeshCrossing {
-    return crossing_from(part, line, 0u, 0u);
+// Before the first crossing.
+fn before_mesh() -> MeshCrossing {
+    return MeshCrossing(-FAR_AWAY, NONE, 0u, true);
 }
 
-// The one after another.
+// The crossing after another in the order of the triangles. One walk over the nodes in their order, children after their
+// parents, visits all boxes that the ray meets; it goes on anywhere.
 fn next_in_mesh(part: u32, line: MeshLine, last: MeshCrossing) -> MeshCrossing {
-    return crossing_from(part, line, last.node, last.triangle + 1u);
-}
-
-// One walk over the nodes in their order, children after their parents, visits all boxes that the ray meets; it may
-// start anywhere.
-fn crossing_from(part: u32, line: MeshLine, first_node: u32, first_triangle: u32) -> MeshCrossing {
-    var node = first_node;
+    var node = last.node;
     while node < parts[part].node_count {
         let at = parts[part].first_node + node * NODE_WORDS;
         let first = lens_words[at + 3u];
         let count = lens_words[at + 7u];
         if meets_box(line, lens_vector(at), lens_vector(at + 4u)) {
-            for (var triangle = max(first, first_triangle); triangle < first + count; triangle += 1u) {
+            for (var triangle = max(first, last.triangle + 1u); triangle < first + count; triangle += 1u) {
                 let crossing = triangle_crossing(part, line, triangle);
                 if crossing.found {
                     return MeshCrossing(crossing.t, triangle, node, true);
@@ -105,17 +100,17 @@ fn triangle_crossing(part: u32, line: MeshLine, triangle: u32) -> TriangleCrossi
     let a = seen_corner(part, line, lens_words[at]);
     let b = seen_corner(part, line, lens_words[at + 1u]);
     let c = seen_corner(part, line, lens_words[at + 2u]);
-    let left = vec3<bool>(is_left(b, c), is_left(c, a), is_left(a, b));
+    let areas = vec3f(edge_area(b, c), edge_area(c, a), edge_area(a, b));
+    let left = vec3<bool>(is_left(b, c, areas.x), is_left(c, a, areas.y), is_left(a, b, areas.z));
     if any(left) && !all(left) {
         return TriangleCrossing(0.0, false);
     }
-    let weights = vec3f(edge_value(b, c), edge_value(c, a), edge_value(a, b));
-    let along = dot(weights, vec3f(a.along, b.along, c.along)) / (weights.x + weights.y + weights.z);
+    let along = dot(areas, vec3f(a.along, b.along, c.along)) / (areas.x + areas.y + areas.z);
     return TriangleCrossing(line.shift + along / dot(line.direction, line.direction), true);
 }
 
 // Twice the area between the ray and an edge; from the other end it is the same number with the other sign.
-fn edge_value(tail: SeenCorner, head: SeenCorner) -> f32 {
+fn edge_area(tail: SeenCorner, head: SeenCorner) -> f32 {
     let turned = tail.index > head.index;
     let a = select(tail.across, head.across, turned);
     let b = select(head.across, tail.across, turned);
@@ -125,8 +120,7 @@ fn edge_value(tail: SeenCorner, head: SeenCorner) -> f32 {
 
 // Whether the ray has an edge on its left. Through an edge or a corner it counts as moved by (e, e squared) for a very
 // small e: exactly one side of every edge holds it, and at a corner all edges agree.
-fn is_left(tail: SeenCorner, head: SeenCorner) -> bool {
-    let area = edge_value(tail, head);
+fn is_left(tail: SeenCorner, head: SeenCorner, area: f32) -> bool {
     if area != 0.0 {
         return area > 0.0;
     }
@@ -150,27 +144,37 @@ fn triangle_normal(part: u32, triangle: u32) -> vec3f {
 // What the ray has inside the mesh around a boundary at `depth`.
 fn mesh_span(part: u32, at: vec2f, depth: f32) -> Span {
     let line = mesh_line(part, at);
-    var exit = MeshCrossing(-FAR_AWAY, 0u, 0u, true);
-    while exit.found {
-        let entry = crossing_behind(part, line, exit);
-        exit = crossing_behind(part, line, entry);
-        if exit.found && exit.t >= depth - MERGE * abs(depth) {
-            return Span(entry.t, exit.t, entry.triangle, exit.triangle, true);
+    var entry = before_mesh();
+    var last = entry;
+    var is_exit = true;
+    loop {
+        last = crossing_behind(part, line, last);
+        if !last.found {
+            return no_span();
+        }
+        is_exit = !is_exit;
+        if !is_exit {
+            entry = last;
+        } else if last.t >= depth - MERGE * abs(depth) {
+            break;
         }
     }
-    return no_span();
+    return Span(entry.t, last.t, entry.triangle, last.triangle, true);
 }
 
 // The nearest crossing behind another; at one depth the order of the triangles counts.
 fn crossing_behind(part: u32, line: MeshLine, after: MeshCrossing) -> MeshCrossing {
     var best = MeshCrossing(FAR_AWAY, NONE, 0u, false);
-    var crossing = first_in_mesh(part, line);
-    while crossing.found {
+    var crossing = before_mesh();
+    loop {
+        crossing = next_in_mesh(part, line, crossing);
+        if !crossing.found {
+            break;
+        }
         let behind = crossing.t > after.t || (crossing.t == after.t && crossing.triangle > after.triangle);
         if behind && (crossing.t < best.t || (crossing.t == best.t && crossing.triangle < best.triangle)) {
             best = crossing;
         }
-        crossing = next_in_mesh(part, line, crossing);
     }
     return best;
 }

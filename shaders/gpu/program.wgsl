@@ -6,7 +6,18 @@ const TOKEN_OUTSIDE: u32 = 1u;
 const TOKEN_BOTH: u32 = 2u;
 const TOKEN_EITHER: u32 = 3u;
 
-// Whether a lens holds the point at hand. Which of its parts do is for the module to say: `is_inside_part`.
+// Which parts of the lens at hand hold the point at hand.
+var<private> inside_parts: array<u32, PART_WORDS>;
+
+fn is_inside_part(number: u32) -> bool {
+    return (inside_parts[number / 32u] & (1u << (number % 32u))) != 0u;
+}
+
+fn cross_part(number: u32) {
+    inside_parts[number / 32u] ^= 1u << (number % 32u);
+}
+
+// Whether the lens as a whole then holds the point.
 fn is_inside_lens(rank: u32) -> bool {
     // One bit a value, the newest lowest: the host orders programs so that they never need more than 32.
     var stack = 0u;
@@ -21,7 +32,7 @@ fn is_inside_lens(rank: u32) -> bool {
                 stack = (stack >> 1u) | (stack & 1u);
             }
             default: {
-                let inside = is_inside_part(rank, token >> 2u) == ((token & 3u) == TOKEN_INSIDE);
+                let inside = is_inside_part(token >> 2u) == ((token & 3u) == TOKEN_INSIDE);
                 stack = (stack << 1u) | select(0u, 1u, inside);
             }
         }

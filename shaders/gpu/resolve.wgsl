@@ -9,14 +9,23 @@ fn composited(pixel: vec2u) -> vec4f {
     let tile = tile_at(pixel);
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
-    var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var glass = next_glass(tile, pixel, no_glass(-FAR_AWAY, 0u));
+    var pick = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
+    var glass = no_glass(-FAR_AWAY, 0u);
+    var needs_pick = true;
+    var needs_glass = true;
     loop {
-        let pick = next_fragment(pixel, opaque, last);
-        while glass.found && glass.depth < pick.depth {
+        if needs_pick {
+            pick = next_fragment(pixel, opaque, pick);
+        }
+        if needs_glass {
+            glass = next_glass(tile, pixel, glass);
+        }
+        needs_glass = glass.found && glass.depth < pick.depth;
+        needs_pick = !needs_glass;
+        if needs_glass {
             let color = glass_color(glass, at, ray);
             front = over(front, color.rgb, color.a);
-            glass = next_glass(tile, pixel, glass);
+            continue;
         }
         if !pick.found {
             break;
@@ -27,7 +36,6 @@ fn composited(pixel: vec2u) -> vec4f {
         if opacity >= OPAQUE_FROM {
             break;
         }
-        last = pick;
     }
     return front;
 }

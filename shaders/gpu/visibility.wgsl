@@ -62,9 +62,8 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
         return keep(in.item, triangle, pixel, hit.depth, Set());
     }
     let at = layers_at(tile, pixel);
-    let starts_later = hit.depth < layer_start(at, frame.layer);
-    let ends_before = frame.layer + 1u < count && hit.depth >= layer_start(at, min(frame.layer + 1u, count - 1u));
-    if starts_later || ends_before {
+    let next = frame.layer + 1u;
+    if !is_begun(at, frame.layer, hit.depth) || (next < count && is_begun(at, next, hit.depth)) {
         discard;
     }
     return keep(in.item, triangle, pixel, hit.depth, layer_set(at, frame.layer));

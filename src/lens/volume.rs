@@ -49,12 +49,6 @@ impl Boundary {
     }
 }
 
-impl From<Solid> for Volume {
-    fn from(solid: Solid) -> Self {
-        Self { center: solid.center, parts: vec![solid], tree: Tree::Part(0) }
-    }
-}
-
 impl Volume {
     /// Whether the shape itself is a flat polygon, rather than a compound of such.
     pub fn is_flat(&self) -> bool {

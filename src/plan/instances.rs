@@ -12,7 +12,7 @@ use super::lenses::Placed;
 use super::{Item, Lens, LensSet};
 use crate::InputError;
 use crate::scene::{Aabb, Scene};
-use crate::spec::{At, By, Displacement, Filter, Pattern};
+use crate::spec::{At, By, Filter, Pattern};
 
 /// The most ways in which one item may be shown.
 const MOST_WAYS: usize = 256;
@@ -150,10 +150,10 @@ fn movement_of(filter: &Filter, lens: &Lens, item: &Item, subject: &Subject) -> 
             let center = center.map_or(lens.volume.center, |c| lens.world_from_shape.transform_point3(c.into()));
             magnified(*factor, center)
         }
-        Filter::Displace { nodes, by } if displaces(nodes, subject) => DAffine3::from_translation(match by {
-            Displacement::Offset(offset) => (*offset).into(),
-            Displacement::Explode(factor) => (item.center - lens.volume.center) * *factor,
-        }),
+        Filter::Displace { nodes, offset, explode } if displaces(nodes, subject) => {
+            let away = item.center - lens.volume.center;
+            DAffine3::from_translation(DVec3::from_array(*offset) + away * *explode)
+        }
         _ => DAffine3::IDENTITY,
     }
 }
@@ -172,12 +172,10 @@ pub(super) fn reach(filter: &Filter, placed: &Placed, seen: &Aabb) -> Option<Aab
             let center = center.map_or(centre, |c| placed.world_from_shape.transform_point3(c.into()));
             Some(box_of(magnified(*factor, center)))
         }
-        Filter::Displace { by: Displacement::Offset(offset), .. } => {
-            Some(box_of(DAffine3::from_translation((*offset).into())))
-        }
-        Filter::Displace { by: Displacement::Explode(factor), .. } => {
+        Filter::Displace { offset, explode, .. } => {
             // The centre of a node may be anywhere in the box.
-            let shift = Aabb::from_points(seen.corners().map(|p| (p - centre) * *factor));
+            let offset = DVec3::from_array(*offset);
+            let shift = Aabb::from_points(seen.corners().map(|p| offset + (p - centre) * *explode));
             Some(Aabb { min: seen.min + shift.min, max: seen.max + shift.max })
         }
         _ => None,

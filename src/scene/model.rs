@@ -299,11 +299,6 @@ impl Model {
         images.dedup();
         images
     }
-
-    /// Whether the pattern matches the node's own name or any ancestor's.
-    pub fn node_matches(&self, node: usize, pattern: &crate::spec::Pattern) -> bool {
-        std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))
-    }
 }
 
 impl Primitive {

@@ -53,7 +53,7 @@ pub fn pictures_of_compounds(device: &Headless) -> Result<(), String> {
     for camera in [PERSPECTIVE, ORTHOGRAPHIC] {
         let (scene, mut plan) = planned([120, 90], 1, camera, &lenses.concat());
         let [bitten, tooth] = [1, 2].map(|rank| plan.lenses[rank].volume.parts[0].clone());
-        replace(&mut plan, 0, Volume::from(torus(DAffine3::from_rotation_x(1.2))));
+        replace(&mut plan, 0, of(torus(DAffine3::from_rotation_x(1.2))));
         let tree = Tree::Difference(vec![Tree::Part(0), Tree::Part(1)]);
         replace(&mut plan, 1, Volume { center: DVec3::ZERO, parts: vec![bitten, tooth], tree });
         check(device, &scene, &plan)?;
@@ -66,7 +66,7 @@ pub fn crossings_that_overflow(device: &Headless) -> Result<(), String> {
     const BOXES: u32 = 7;
     let lens = "[[lens]]\nname = \"row\"\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nfilters = [\"invert\"]\n";
     let (scene, mut plan) = planned(SIZE, 1, "eye = [0, 0.3, 4]\ntarget = [0, 0.3, 0]\nfov_y = 20", lens);
-    replace(&mut plan, 0, Volume::from(row(BOXES)));
+    replace(&mut plan, 0, of(row(BOXES)));
     assert!(2 * BOXES > Room::FIRST.crossings);
     compare_layers(device, &scene, &plan)?;
     check(device, &scene, &plan)?;
@@ -85,6 +85,11 @@ pub fn crossings_that_overflow(device: &Headless) -> Result<(), String> {
         Some(most) if most as u32 == 2 * BOXES + 1 => Ok(()),
         most => Err(format!("{most:?} layers at the most")),
     }
+}
+
+/// A volume of one part.
+fn of(solid: Solid) -> Volume {
+    Volume { center: solid.center, parts: vec![solid], tree: Tree::Part(0) }
 }
 
 fn replace(plan: &mut Plan, rank: usize, volume: Volume) {
