@@ -23,7 +23,7 @@ pub enum Feature {
 }
 
 /// Features that cases may use.
-pub const ENABLED: &[Feature] = &[Feature::Movers, Feature::Rules, Feature::Soft];
+pub const ENABLED: &[Feature] = &[Feature::Compounds, Feature::Meshes, Feature::Movers, Feature::Rules, Feature::Soft];
 
 pub fn has(feature: Feature) -> bool {
     ENABLED.contains(&feature)
