@@ -19,7 +19,7 @@ pub use halfspaces::{Plane, Polyhedron};
 pub use layers::{LayerStart, RayLayers};
 pub use mesh::{LensMeshes, MeshForm, MeshNode, MeshSolid};
 pub use rect::PixelRect;
-pub use set::{LensSet, MAX_LENSES};
+pub use set::{LensSet, MAX_LENSES, MAX_RULES};
 pub use solid::Solid;
 pub use tree::{MAX_PARTS, Tree};
 pub use volume::{Boundary, Interval, Volume};

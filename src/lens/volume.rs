@@ -56,7 +56,7 @@ impl Volume {
     }
 
     /// The only part, if it is convex: a ray has at most one interval, and nothing needs to be put together.
-    fn lone(&self) -> Option<(usize, &Solid)> {
+    pub fn lone(&self) -> Option<(usize, &Solid)> {
         match self.tree {
             Tree::Part(part) if self.parts[part].form.is_convex() => Some((part, &self.parts[part])),
             _ => None,

@@ -157,6 +157,8 @@ pub struct LensSpec {
     pub by: By,
     pub only: Matches,
     pub except: Matches,
+    /// Width over which the effect fades in from the boundary, scene units; 0: a sharp one.
+    pub soft: f64,
     pub glass: Option<Glass>,
 }
 
@@ -325,6 +327,18 @@ pub enum Filter {
         materials: Vec<At<Pattern>>,
     },
     Show(ShowWhat),
+    /// Enlarges about `center` (in the shape's space; `None`: the lens's centre).
+    Magnify {
+        factor: f64,
+        center: Option<[f64; 3]>,
+    },
+    /// Moves nodes that match (an empty list: everything) by `offset`, along the scene's axes, and by `explode` times
+    /// the vector from the lens's centre to the centre of the node's bounds.
+    Displace {
+        nodes: Vec<At<Pattern>>,
+        offset: [f64; 3],
+        explode: f64,
+    },
     Opacity {
         value: f32,
     },
@@ -356,6 +370,13 @@ pub enum Filter {
         scale: [f32; 2],
     },
     Normals,
+}
+
+impl Filter {
+    /// Whether it moves content (SEMANTICS 5.2).
+    pub fn moves(&self) -> bool {
+        matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
+    }
 }
 
 /// What `show` puts in place of the scene.
