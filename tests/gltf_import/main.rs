@@ -3,6 +3,7 @@
 mod builder;
 mod damage;
 mod errors;
+mod motion;
 mod shared;
 mod small;
 mod texts;
