@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
+use super::{Animation, Transform};
+
 /// One glTF file, with one of its scenes chosen. Indices are those of the file.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
@@ -17,6 +19,8 @@ pub struct Model {
     pub images: Vec<Image>,
     pub lights: Vec<Light>,
     pub cameras: Vec<Camera>,
+    /// Those of the file, in its order; see [`Model::pose`].
+    pub animations: Vec<Animation>,
     /// Names of the file's scenes and which one is shown.
     pub scenes: Vec<Option<String>>,
     pub scene: usize,
@@ -32,6 +36,9 @@ pub struct Node {
     pub name: String,
     pub parent: Option<usize>,
     pub children: Vec<usize>,
+    /// Its place in its parent when nothing is animated.
+    pub rest: Transform,
+    /// As the model was last posed.
     pub world_from_local: DAffine3,
     pub mesh: Option<usize>,
     pub camera: Option<usize>,
