@@ -58,8 +58,18 @@ pub fn build_volume(
     for shape in shape.parts() {
         parts.push(part(&shape.value, world, view, meshes).map_err(|reason| At::new(reason, shape.span.clone()))?);
     }
-    let center = parts.iter().map(|part| part.center).sum::<DVec3>() / parts.len().max(1) as f64;
-    Ok(Volume { parts, tree: tree(&shape.value, &mut 0), center })
+    let tree = tree(&shape.value, &mut 0);
+    Ok(Volume { center: center(&tree, &parts), parts, tree })
+}
+
+/// The mean of the centres of what is put together; of a part its own.
+fn center(tree: &Tree, parts: &[Solid]) -> DVec3 {
+    match tree {
+        Tree::Part(part) => parts[*part].center,
+        Tree::Union(list) | Tree::Intersection(list) | Tree::Difference(list) => {
+            list.iter().map(|tree| center(tree, parts)).sum::<DVec3>() / list.len() as f64
+        }
+    }
 }
 
 /// The tree of a shape whose parts are numbered in the order of the file, from `next` on.

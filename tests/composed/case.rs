@@ -127,18 +127,49 @@ pub enum Rotation {
 
 #[derive(Debug, Clone)]
 pub enum Shape {
-    Sphere { center: DVec3, radius: f64 },
-    Ellipsoid { center: DVec3, radii: DVec3, rotation: Rotation },
-    Box { center: DVec3, size: DVec3, rotation: Rotation },
-    Cylinder { from: DVec3, to: DVec3, radius: f64 },
-    Cone { from: DVec3, to: DVec3, from_radius: f64, to_radius: f64 },
-    Capsule { from: DVec3, to: DVec3, radius: f64 },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
+    Ellipsoid {
+        center: DVec3,
+        radii: DVec3,
+        rotation: Rotation,
+    },
+    Box {
+        center: DVec3,
+        size: DVec3,
+        rotation: Rotation,
+    },
+    Cylinder {
+        from: DVec3,
+        to: DVec3,
+        radius: f64,
+    },
+    Cone {
+        from: DVec3,
+        to: DVec3,
+        from_radius: f64,
+        to_radius: f64,
+    },
+    Capsule {
+        from: DVec3,
+        to: DVec3,
+        radius: f64,
+    },
     /// Normals of any length.
     Polytope(Vec<[f64; 4]>),
     Hull(Vec<DVec3>),
-    Flat { corners: Vec<DVec3>, depth: Option<f64> },
+    Flat {
+        corners: Vec<DVec3>,
+        depth: Option<f64>,
+    },
     /// Into [`Case::solids`]; one node of it, or all.
-    Mesh { solid: usize, node: Option<usize>, convex: Convex },
+    Mesh {
+        solid: usize,
+        node: Option<usize>,
+        convex: Convex,
+    },
     Compound(Compound, Vec<Shape>),
 }
 
@@ -169,14 +200,24 @@ pub enum Filter {
     Material(Color),
     Normals,
     /// With nothing between the wires, or all of the surface.
-    Wireframe { width: f64, color: Option<Color>, filled: bool },
+    Wireframe {
+        width: f64,
+        color: Option<Color>,
+        filled: bool,
+    },
     Erase(Patterns),
     /// Into [`Case::models`], from 1.
     ShowAlternate(usize),
     ShowNodes(Vec<String>),
     /// The centre in the shape's space.
-    Magnify { factor: f64, center: Option<DVec3> },
-    Displace { nodes: Vec<String>, by: Displacement },
+    Magnify {
+        factor: f64,
+        center: Option<DVec3>,
+    },
+    Displace {
+        nodes: Vec<String>,
+        by: Displacement,
+    },
 }
 
 #[derive(Debug, Clone, Copy)]

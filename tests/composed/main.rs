@@ -28,7 +28,8 @@ use product::Party;
 
 fn main() {
     let arguments = Arguments::from_args();
-    let trial = |party: Party| Trial::test(format!("cases::{}", party.name()), move || run::all(party).map_err(Failed::from));
+    let trial =
+        |party: Party| Trial::test(format!("cases::{}", party.name()), move || run::all(party).map_err(Failed::from));
     let mut trials = vec![trial(Party::Cpu)];
     #[cfg(feature = "gpu")]
     {

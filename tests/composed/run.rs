@@ -70,9 +70,5 @@ fn failure(seed: u64, party: Party, folder: &Path, difference: &str) -> String {
     }
     let smallest = shrink(&generate::case(seed), fails);
     let text = outcome(&smallest).err().unwrap_or_default();
-    format!(
-        "seed {seed}, {}: {difference}\n  smaller, in {}: {text}",
-        party.name(),
-        small.join("case.toml").display()
-    )
+    format!("seed {seed}, {}: {difference}\n  smaller, in {}: {text}", party.name(), small.join("case.toml").display())
 }

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use crate::case::{
-    Attach, Camera, Case, Color, Compound, Convex, Displacement, Filter, Lens, Patterns, Projection, Rotation, Rule, Shape,
-    When,
+    Attach, Camera, Case, Color, Compound, Convex, Displacement, Filter, Lens, Patterns, Projection, Rotation, Rule,
+    Shape, When,
 };
 
 /// The whole spec; the models lie beside it.

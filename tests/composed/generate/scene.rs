@@ -67,9 +67,14 @@ fn primitives(kind: usize, random: &mut Random) -> Vec<Primitive> {
     let triangles = match kind {
         0 => cuboid(size),
         1 => ball(size),
-        _ => quad([DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, -1.0, 0.0), DVec3::ONE.with_z(0.0), DVec3::new(-1.0, 1.0, 0.0)])
-            .map(|t| t.map(|p| p * 1.5 * size))
-            .to_vec(),
+        _ => quad([
+            DVec3::new(-1.0, -1.0, 0.0),
+            DVec3::new(1.0, -1.0, 0.0),
+            DVec3::ONE.with_z(0.0),
+            DVec3::new(-1.0, 1.0, 0.0),
+        ])
+        .map(|t| t.map(|p| p * 1.5 * size))
+        .to_vec(),
     };
     let triangles: Vec<_> = triangles.into_iter().map(|t| t.map(single)).collect();
     let cut = if random.chance(0.3) { triangles.len() / 2 } else { 0 };
@@ -118,7 +123,9 @@ fn ball(radii: DVec3) -> Vec<[DVec3; 3]> {
     for step in 0..AROUND {
         let (north, south) = (DVec3::Z * radii, DVec3::NEG_Z * radii);
         triangles.push([north, at(1, step), at(1, step + 1)]);
-        triangles.extend((1..3).flat_map(|row| quad([at(row, step), at(row + 1, step), at(row + 1, step + 1), at(row, step + 1)])));
+        triangles.extend(
+            (1..3).flat_map(|row| quad([at(row, step), at(row + 1, step), at(row + 1, step + 1), at(row, step + 1)])),
+        );
         triangles.push([at(3, step), south, at(3, step + 1)]);
     }
     triangles

@@ -96,7 +96,8 @@ impl<'a> Oracle<'a> {
             }
             let near = DOUBT * hit.depth.abs().max(1.0);
             let too_near = |other: &(Hit, Met, Shade)| hit.depth - other.0.depth < near;
-            let is_cut = (hit.depth - self.stage.view.near).abs() < near || (hit.depth - self.stage.view.far).abs() < near;
+            let is_cut =
+                (hit.depth - self.stage.view.near).abs() < near || (hit.depth - self.stage.view.far).abs() < near;
             let met = hit.met.clone()?;
             let shade = shade::shade(&self.stage, &hit, &met, [x, y]);
             if is_cut || sight.fragments.last().is_some_and(too_near) {
@@ -128,7 +129,8 @@ impl<'a> Oracle<'a> {
         let gap = |pair: &[f64]| (pair[1] - pair[0]) / pair[0].abs().max(1e-3);
         let planes = [self.stage.view.near, self.stage.view.far];
         let is_cut = |depth: &f64| planes.iter().any(|plane| (depth - plane).abs() < DOUBT * depth.abs().max(1.0));
-        let unclear = boundaries.windows(2).any(|pair| (SAME..DOUBT).contains(&gap(pair))) || boundaries.iter().any(is_cut);
+        let unclear =
+            boundaries.windows(2).any(|pair| (SAME..DOUBT).contains(&gap(pair))) || boundaries.iter().any(is_cut);
         let merged = boundaries.windows(2).filter(|pair| gap(pair) < SAME).count();
         (!unclear).then(|| 1 + boundaries.len() - merged)
     }

@@ -10,12 +10,26 @@ use crate::case::{Case, Compound, Convex, Shape};
 #[derive(Debug, Clone)]
 pub enum Solid {
     /// The ball of radius 1 in the space of the matrix.
-    Ellipsoid { center: DVec3, ball_from_shape: DMat3 },
+    Ellipsoid {
+        center: DVec3,
+        ball_from_shape: DMat3,
+    },
     /// The points with `n·p <= d` for all.
     Planes(Vec<(DVec3, f64)>),
-    Cone { from: DVec3, to: DVec3, radii: [f64; 2] },
-    Capsule { from: DVec3, to: DVec3, radius: f64 },
-    Flat { corners: Vec<DVec3>, depth: Option<f64> },
+    Cone {
+        from: DVec3,
+        to: DVec3,
+        radii: [f64; 2],
+    },
+    Capsule {
+        from: DVec3,
+        to: DVec3,
+        radius: f64,
+    },
+    Flat {
+        corners: Vec<DVec3>,
+        depth: Option<f64>,
+    },
     /// A closed surface; inside is where a ray crosses it an odd number of times.
     Mesh(Vec<[DVec3; 3]>),
     Compound(Compound, Vec<Solid>),
@@ -40,9 +54,10 @@ impl Sight {
 pub fn solid(case: &Case, shape: &Shape) -> (Solid, DVec3) {
     let cone = |from: &DVec3, to: &DVec3, radii| (Solid::Cone { from: *from, to: *to, radii }, 0.5 * (*from + *to));
     match shape {
-        Shape::Sphere { center, radius } => {
-            (Solid::Ellipsoid { center: *center, ball_from_shape: DMat3::from_diagonal(DVec3::splat(1.0 / radius)) }, *center)
-        }
+        Shape::Sphere { center, radius } => (
+            Solid::Ellipsoid { center: *center, ball_from_shape: DMat3::from_diagonal(DVec3::splat(1.0 / radius)) },
+            *center,
+        ),
         Shape::Ellipsoid { center, radii, rotation } => {
             let ball_from_shape = DMat3::from_diagonal(1.0 / *radii) * turn(*rotation).transpose();
             (Solid::Ellipsoid { center: *center, ball_from_shape }, *center)
@@ -100,7 +115,11 @@ fn mesh(case: &Case, solid: usize, only: Option<usize>) -> Vec<[DVec3; 3]> {
 /// Every plane through three points that has all on one side.
 fn hull(points: &[DVec3]) -> Vec<(DVec3, f64)> {
     let mut distinct: Vec<DVec3> = Vec::new();
-    points.iter().for_each(|p| if distinct.iter().all(|q| q.distance(*p) > 1e-9) { distinct.push(*p) });
+    points.iter().for_each(|p| {
+        if distinct.iter().all(|q| q.distance(*p) > 1e-9) {
+            distinct.push(*p)
+        }
+    });
     let count = distinct.len();
     let mut planes: Vec<(DVec3, f64)> = Vec::new();
     for (i, j, k) in (0..count).flat_map(|i| (i + 1..count).flat_map(move |j| (j + 1..count).map(move |k| (i, j, k)))) {
@@ -202,7 +221,8 @@ impl Solid {
                 planes.iter().map(height).reduce(f64::min)
             }
             Solid::Compound(Compound::Intersection, parts) => {
-                let depths: Option<Vec<f64>> = parts.iter().map(|part| part.depth_inside(p, shape_from_world)).collect();
+                let depths: Option<Vec<f64>> =
+                    parts.iter().map(|part| part.depth_inside(p, shape_from_world)).collect();
                 depths?.into_iter().reduce(f64::min)
             }
             _ => None,
@@ -258,9 +278,7 @@ fn is_seen_through(corners: &[DVec3], depth: Option<f64>, p: DVec3, sight: &Sigh
     let in_reach = share >= 0.0 && (sight.along.is_some() || share <= 1.0);
     let at = p + back * share;
     let is_left = |i: usize| n.dot((corners[(i + 1) % corners.len()] - corners[i]).cross(at - corners[i])) >= 0.0;
-    in_reach
-        && (0..corners.len()).all(is_left)
-        && depth.is_none_or(|depth| n.dot(p - corners[0]).abs() <= depth)
+    in_reach && (0..corners.len()).all(is_left) && depth.is_none_or(|depth| n.dot(p - corners[0]).abs() <= depth)
 }
 
 /// The side of a cone with its radius at `from` and what that grows by along the axis; both halves of it.

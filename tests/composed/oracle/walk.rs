@@ -233,8 +233,7 @@ impl<'a> Composition<'a> {
             return self.descend(subject, p);
         }
         let own = |lens: usize| subject.shown_by.is_some_and(|act| act.by == Actor::Lens(lens));
-        let inside: Vec<usize> =
-            self.order.iter().copied().filter(|lens| self.contains(*lens, subject, p)).collect();
+        let inside: Vec<usize> = self.order.iter().copied().filter(|lens| self.contains(*lens, subject, p)).collect();
         let plain: Vec<usize> = inside.iter().copied().filter(|lens| self.is_in_scope(*lens, subject)).collect();
         let around: Vec<usize> =
             inside.into_iter().filter(|lens| self.is_in_scope(*lens, subject) || own(*lens)).collect();
