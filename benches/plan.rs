@@ -28,13 +28,13 @@ fn empty_scene() -> Scene {
     Scene::new(vec![Model { name: "none.glb".into(), ..Model::default() }], Vec::new())
 }
 
-const COUNTS: [usize; 3] = [8, 32, 128];
+const COUNTS: [usize; 4] = [8, 32, 128, 256];
 /// Apart, in a chain, and all over each other.
 const STEPS: [f64; 3] = [3.0, 1.5, 0.01];
 
-#[divan::bench(args = COUNTS)]
-fn decide(bencher: Bencher, count: usize) {
-    let (spec, scene) = (spec(count, STEPS[1]), empty_scene());
+#[divan::bench(args = COUNTS, consts = [0, 1, 2])]
+fn decide<const STEP: usize>(bencher: Bencher, count: usize) {
+    let (spec, scene) = (spec(count, STEPS[STEP]), empty_scene());
     bencher.bench(|| Plan::new(black_box(&spec), &scene).expect("the plan of the benchmark is valid"));
 }
 

@@ -1,6 +1,11 @@
 //! What a backend gives back.
 
-use crate::plan::LensSet;
+use std::collections::HashMap;
+
+use crate::plan::Region;
+
+/// Stands in [`Aovs::regions`] where nothing is.
+pub const NOTHING: u32 = u32::MAX;
 
 /// A finished picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,8 +20,10 @@ pub struct Frame {
 /// What lies at the centre of each pixel; each list has one entry a pixel, row 0 at the top.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Aovs {
-    /// The lenses around the visible fragment (S); `None` where nothing is.
-    pub sets: Vec<Option<LensSet>>,
+    /// The region of the visible fragment, into `table`; [`NOTHING`] where nothing is.
+    pub regions: Vec<u32>,
+    /// The regions that the picture has, in the order in which they were met.
+    pub table: Vec<Region>,
     /// Node index in its file plus one; 0 where nothing is.
     pub nodes: Vec<u32>,
     /// Along the forward axis, scene units; infinite where nothing is.
@@ -32,11 +39,33 @@ impl Aovs {
     pub fn empty(size: [u32; 2]) -> Self {
         let count = size[0] as usize * size[1] as usize;
         Self {
-            sets: vec![None; count],
+            regions: vec![NOTHING; count],
+            table: Vec::new(),
             nodes: vec![0; count],
             depth: vec![f32::INFINITY; count],
             normals: vec![[0.0; 3]; count],
             layers: vec![1; count],
         }
+    }
+
+    /// The region of each pixel's visible fragment; `None` where nothing is.
+    pub fn region(&self, pixel: usize) -> Option<Region> {
+        self.table.get(self.regions[pixel] as usize).copied()
+    }
+}
+
+/// Numbers regions as they are met.
+#[derive(Debug, Default)]
+pub struct RegionTable {
+    numbers: HashMap<Region, u32>,
+    pub table: Vec<Region>,
+}
+
+impl RegionTable {
+    pub fn number(&mut self, region: Region) -> u32 {
+        *self.numbers.entry(region).or_insert_with(|| {
+            self.table.push(region);
+            self.table.len() as u32 - 1
+        })
     }
 }

@@ -36,6 +36,11 @@ impl Ray {
     pub fn at(&self, depth: f64) -> DVec3 {
         self.origin + self.direction * depth
     }
+
+    /// The ray in another space; its parameter stays what it is.
+    pub fn moved(&self, map: &DAffine3) -> Self {
+        Self { origin: map.transform_point3(self.origin), direction: map.transform_vector3(self.direction) }
+    }
 }
 
 impl View {

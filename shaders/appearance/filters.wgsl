@@ -16,7 +16,7 @@ fn filter_surface(op: Op, before: Surface, texel: vec4f) -> Surface {
             s.opacity = s.opacity * op.a.x;
         }
         case OP_UNLIT: {
-            s.unlit = 1u;
+            s.unlit = 1.0;
             if (op.flags & HAS_COLOR) != 0u {
                 s = with_base_color(s, op.a);
             }
@@ -40,7 +40,7 @@ fn filter_surface(op: Op, before: Surface, texel: vec4f) -> Surface {
             s.texel = texel;
         }
         case OP_NORMALS: {
-            s.unlit = 1u;
+            s.unlit = 1.0;
             let encoded = linear_from_srgb3(s.normal * 0.5 + vec3f(0.5));
             s = with_base_color(s, vec4f(encoded, 1.0));
         }
@@ -88,6 +88,15 @@ struct Shaded {
     color: vec3f,
     opacity: f32,
     coverage: f32,
+}
+
+// As `faded_surface`, for the coverage stage.
+fn faded_shaded(before: Shaded, after: Shaded, amount: f32) -> Shaded {
+    return Shaded(
+        mix(before.color, after.color, amount),
+        mix(before.opacity, after.opacity, amount),
+        mix(before.coverage, after.coverage, amount),
+    );
 }
 
 // The coverage stage of `wireframe`; `edge` is the distance to the nearest triangle edge in pixels.

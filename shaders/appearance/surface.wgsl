@@ -8,7 +8,8 @@ struct Op {
     // Index into the filter textures, for OP_TEXTURE.
     texture: u32,
     flags: u32,
-    pad: u32,
+    // Not 0: acts where a later filter of its lens moves content from.
+    inner: u32,
     a: vec4f,
     b: vec4f,
     c: vec4f,
@@ -58,8 +59,8 @@ struct Surface {
     alpha_cutoff: f32,
     // What the stack multiplies the material's alpha by.
     opacity: f32,
-    // Not 0: shown in its base colour, without lighting.
-    unlit: u32,
+    // 0: lit; 1: shown in its base colour, without lighting; between where that fades in.
+    unlit: f32,
 }
 
 fn base_color(s: Surface) -> vec3f {
@@ -83,8 +84,18 @@ const OPAQUE_FROM: f32 = 0.9999;
 
 // What a stack makes of a surface before its colour filters act: lit, or its plain base colour.
 fn emitted(s: Surface, lit: vec3f) -> vec3f {
-    if s.unlit != 0u {
-        return base_color(s);
-    }
-    return lit + s.emissive;
+    return mix(lit + s.emissive, base_color(s), s.unlit);
+}
+
+// A filter's work on a surface, of which `amount` (0..1) counts: less than 1 near the boundary of a soft lens.
+fn faded_surface(before: Surface, after: Surface, amount: f32) -> Surface {
+    var s = after;
+    s.factor = mix(before.factor, after.factor, amount);
+    s.texel = mix(before.texel, after.texel, amount);
+    s.metallic = mix(before.metallic, after.metallic, amount);
+    s.roughness = mix(before.roughness, after.roughness, amount);
+    s.emissive = mix(before.emissive, after.emissive, amount);
+    s.opacity = mix(before.opacity, after.opacity, amount);
+    s.unlit = mix(before.unlit, after.unlit, amount);
+    return s;
 }

@@ -1,9 +1,9 @@
 // What lies at the centre of each pixel: the visible fragment of SEMANTICS 6.4.
 
-// For each pixel: layers, node plus one, depth, normal, found, then the words of the set. Twin of `aov.rs`.
+// For each pixel: layers, node plus one, depth, normal, found, then the words of the set and of the stack. Twin of `aov.rs`.
 @group(2) @binding(4) var<storage, read_write> maps: array<u32>;
 
-const MAP_WORDS: u32 = 7u + WORDS;
+const MAP_WORDS: u32 = 7u + 2u * WORDS;
 
 @compute @workgroup_size(8, 8)
 fn aovs(@builtin(global_invocation_id) id: vec3u) {
@@ -49,5 +49,6 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     maps[at + 6u] = found;
     for (var w = 0u; w < WORDS; w += 1u) {
         maps[at + 7u + w] = visible.around.words[w];
+        maps[at + 7u + WORDS + w] = visible.stack.words[w];
     }
 }

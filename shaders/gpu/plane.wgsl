@@ -1,4 +1,4 @@
-// Where a pixel's ray crosses one plane of a lens.
+// Where a pixel's ray crosses one plane of a part.
 
 struct PlaneCrossing {
     // Parameter along the ray.
@@ -9,8 +9,8 @@ struct PlaneCrossing {
     distance: f32,
 }
 
-fn plane_crossing(rank: u32, face: u32, at: vec2f) -> PlaneCrossing {
-    let k = lens_data[lenses[rank].first_plane + 2u * face];
+fn plane_crossing(part: u32, face: u32, at: vec2f) -> PlaneCrossing {
+    let k = lens_data[parts[part].first_plane + 2u * face];
     let moving = k.y + k.z * at.x + k.w * at.y;
     let distance = select(moving, k.x, frame.perspective != 0u);
     let rate = select(k.x, moving, frame.perspective != 0u);

@@ -198,13 +198,13 @@ fn textured_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> 
     s.alpha_mode = materials[m].alpha_mode;
     s.alpha_cutoff = materials[m].alpha_cutoff;
     s.opacity = 1.0;
-    s.unlit = materials[m].unlit;
+    s.unlit = f32(materials[m].unlit);
     return Textured(s, texels[SLOT_FILTER]);
 }
 
 // Light that a surface sends to the viewer.
 fn lit(s: Surface) -> vec3f {
-    if s.unlit != 0u {
+    if s.unlit >= 1.0 {
         return vec3f(0.0);
     }
     var sum = ambient_light(s, frame.ambient.w, frame.ambient.xyz);

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use self::pixel::PixelAccount;
 use super::args::{ExplainArgs, ExplainFormat};
 use crate::InputError;
-use crate::plan::{Account, LensSet, Plan, Reasons, Region, filter_name};
+use crate::plan::{Account, LensSet, Plan, Reasons, Region};
 use crate::scene::Scene;
 use crate::spec::Spec;
 
@@ -80,7 +80,7 @@ fn json(spec: &Spec, plan: &Plan) -> Value {
         .map(|region| {
             json!({
                 "lenses": plan.names(region.set),
-                "stack": stack_json(plan, region.stack),
+                "stack": stack_json(plan, *region),
                 "hidden": hidden_json(&reasons, region),
                 "order": order_json(&reasons, region.stack),
             })
@@ -91,14 +91,8 @@ fn json(spec: &Spec, plan: &Plan) -> Value {
     json!({ "order": order, "regions": regions, "undecided": undecided, "warnings": plan.warnings })
 }
 
-fn stack_json(plan: &Plan, stack: LensSet) -> Vec<Value> {
-    stack
-        .iter()
-        .flat_map(|rank| {
-            let lens = &plan.lenses[rank];
-            lens.filters.iter().map(|f| json!({ "lens": lens.name, "filter": filter_name(f) }))
-        })
-        .collect()
+fn stack_json(plan: &Plan, region: Region) -> Vec<Value> {
+    crate::output::stack(plan, region).iter().map(crate::output::Entry::json).collect()
 }
 
 /// The lenses of a region that do not act there.

@@ -39,7 +39,15 @@ pub fn g4(v: rt::Vec4<f32>) -> Vec4 {
 }
 
 pub fn op(op: &Op) -> wgsl::Op {
-    wgsl::Op { kind: op.kind, texture: op.texture, flags: op.flags, pad: op.pad, a: a4(op.a), b: a4(op.b), c: a4(op.c) }
+    wgsl::Op {
+        kind: op.kind,
+        texture: op.texture,
+        flags: op.flags,
+        inner: op.inner,
+        a: a4(op.a),
+        b: a4(op.b),
+        c: a4(op.c),
+    }
 }
 
 pub fn light(light: &LightRecord) -> wgsl::Light {

@@ -1,17 +1,17 @@
-//! Triangles of each content around the eye, in a wide BVH.
+//! Triangles around the eye, in wide BVHs: one for each content in place, and one for all that lenses move.
 
 use std::time::Duration;
 
-use glam::{Vec3, Vec3A};
+use glam::{DVec3, Vec3, Vec3A};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::{BvhBuildParams, aabb::Aabb};
 use rayon::prelude::*;
 
-use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::plan::{Instance, Plan};
+use crate::scene::{self, Scene};
 use crate::view::View;
 
-/// One content: its triangles in the order of the BVH's leaves.
+/// Triangles in the order of the BVH's leaves.
 pub struct Geometry {
     pub bvh: CwBvh,
     pub triangles: Vec<Triangle>,
@@ -22,8 +22,8 @@ pub struct Geometry {
 pub struct Triangle {
     /// Relative to the eye along the world's axes, times [`Reach::scale`].
     pub corners: [Vec3; 3],
-    /// Into [`Plan::items`].
-    pub item: u32,
+    /// Into [`Plan::instances`].
+    pub instance: u32,
     /// Into the primitive's triangles.
     pub index: u32,
 }
@@ -63,28 +63,21 @@ impl Reach {
 }
 
 impl Geometry {
-    /// The geometry of every content of a plan.
+    /// The geometry of each content in place, in their order, then that of everything moved.
     pub fn build_all(scene: &Scene, plan: &Plan) -> Vec<Geometry> {
-        (0..plan.contents.len()).map(|content| Self::build(scene, plan, content)).collect()
+        let in_place = |content: usize| {
+            move |instance: &Instance| !instance.is_moved() && plan.items[instance.item].content == content
+        };
+        (0..plan.contents.len())
+            .map(|content| Self::build(scene, plan, in_place(content)))
+            .chain(std::iter::once(Self::build(scene, plan, Instance::is_moved)))
+            .collect()
     }
 
-    fn build(scene: &Scene, plan: &Plan, content: usize) -> Self {
-        let scale = Reach::new(&plan.view).scale;
-        let items = plan.items.par_iter().enumerate().filter(|(_, item)| item.content == content);
-        let triangles: Vec<Triangle> = items
-            .flat_map_iter(|(index, item)| {
-                let model = &scene.models[item.model];
-                let primitive = &model.meshes[item.mesh].primitives[item.primitive];
-                let world = model.nodes[item.node].world_from_local;
-                let traced = |p: &Vec3| ((world.transform_point3(p.as_dvec3()) - plan.view.eye) * scale).as_vec3();
-                let positions: Vec<Vec3> = primitive.positions.iter().map(traced).collect();
-                primitive.triangles.iter().enumerate().map(move |(number, corners)| Triangle {
-                    corners: corners.map(|i| positions[i as usize]),
-                    item: index as u32,
-                    index: number as u32,
-                })
-            })
-            .collect();
+    fn build(scene: &Scene, plan: &Plan, wanted: impl Fn(&Instance) -> bool + Sync) -> Self {
+        let instances = plan.instances.par_iter().enumerate().filter(|(_, instance)| wanted(instance));
+        let triangles: Vec<Triangle> =
+            instances.flat_map_iter(|(index, instance)| triangles(scene, plan, index, instance)).collect();
         if triangles.is_empty() {
             return Self { bvh: CwBvh::default(), triangles };
         }
@@ -92,4 +85,27 @@ impl Geometry {
         let ordered = bvh.primitive_indices.par_iter().map(|i| triangles[*i as usize]).collect();
         Self { bvh, triangles: ordered }
     }
+}
+
+/// The triangles of an instance; of a moved one only those that reach into the lenses that move it there.
+fn triangles(scene: &Scene, plan: &Plan, index: usize, instance: &Instance) -> Vec<Triangle> {
+    let item = &plan.items[instance.item];
+    let model = &scene.models[item.model];
+    let primitive = &model.meshes[item.mesh].primitives[item.primitive];
+    let world = instance.shown_from_world * model.nodes[item.node].world_from_local;
+    let scale = Reach::new(&plan.view).scale;
+    let shown: Vec<DVec3> = primitive.positions.iter().map(|p| world.transform_point3(p.as_dvec3())).collect();
+    let around = |i: u32| ((shown[i as usize] - plan.view.eye) * scale).as_vec3();
+    let is_near = |corners: &[u32; 3]| {
+        let bounds = scene::Aabb::from_points(corners.iter().map(|i| shown[*i as usize]));
+        !instance.is_moved() || bounds.overlaps(&instance.bounds)
+    };
+    let numbered = primitive.triangles.iter().enumerate().filter(|(_, corners)| is_near(corners));
+    numbered
+        .map(|(number, corners)| Triangle {
+            corners: corners.map(around),
+            instance: index as u32,
+            index: number as u32,
+        })
+        .collect()
 }

@@ -2,8 +2,8 @@
 
 use super::convert::{a4, d3, g4, glass as record};
 use crate::appearance as wgsl;
-use crate::lens::{Crossing, Span};
-use crate::plan::{Lens, Plan};
+use crate::lens::{Boundary, Crossing, Solid, Span};
+use crate::plan::Plan;
 use crate::view::Ray;
 
 /// A point of a lens surface: depth, lens rank, and its colour with opacity in alpha (linear, straight).
@@ -16,37 +16,40 @@ pub struct GlassHit {
 
 /// Appends the lens surfaces that a ray meets between near and far.
 pub fn find(plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay, hits: &mut Vec<GlassHit>) {
+    let mut boundaries: Vec<Boundary> = Vec::new();
     for &rank in ranks {
         let lens = &plan.lenses[rank];
-        let (Some(glass), Some(span)) = (&lens.glass, lens.volume.span(ray)) else { continue };
-        let glass = record(glass);
-        let silhouette = silhouette(plan, lens, ray, &span, pixel);
-        for crossing in [&span.entry, &span.exit] {
-            let within = crossing.t > plan.view.near && crossing.t < plan.view.far;
-            if !within || !lens.volume.form.is_seen(crossing.face) {
+        let Some(glass) = &lens.glass else { continue };
+        boundaries.clear();
+        lens.volume.boundaries(ray, plan.view.near, plan.view.far, &mut boundaries);
+        for boundary in &boundaries {
+            let part = &lens.volume.parts[boundary.part];
+            let crossing = boundary.crossing();
+            if !part.form.is_seen(crossing.face) {
                 continue;
             }
-            let facing = lens.volume.normal(ray, crossing).dot(ray.direction.normalize()).abs();
-            let opacity = wgsl::glass_opacity(glass, facing as f32, silhouette);
+            let facing = lens.volume.normal(ray, boundary).dot(ray.direction.normalize()).abs();
+            let silhouette = silhouette(plan, part, ray, &boundary.span, pixel);
+            let opacity = wgsl::glass_opacity(record(glass), facing as f32, silhouette);
             if opacity > 0.0 {
-                let color = g4(a4(lens.glass.map_or([0.0; 4], |g| g.color))).truncate().extend(opacity);
-                hits.push(GlassHit { depth: crossing.t, rank, color });
+                let color = g4(a4(glass.color)).truncate().extend(opacity);
+                hits.push(GlassHit { depth: boundary.depth, rank, color });
             }
         }
     }
 }
 
-/// Pixels from the lens's outline in the picture.
-fn silhouette(plan: &Plan, lens: &Lens, ray: &Ray, span: &Span, pixel: &wgsl::PixelRay) -> f32 {
-    if lens.volume.is_flat {
-        return flat_silhouette(plan, lens, pixel);
+/// Pixels from the outline of a part in the picture.
+fn silhouette(plan: &Plan, part: &Solid, ray: &Ray, span: &Span, pixel: &wgsl::PixelRay) -> f32 {
+    if part.is_flat {
+        return flat_silhouette(plan, part, pixel);
     }
     // Around the eye a volume has no outline.
     if plan.view.is_perspective() && span.entry.t <= 0.0 {
         return f32::INFINITY;
     }
-    let normal = |c: &Crossing| d3(lens.volume.normal(ray, c));
-    let join = lens.volume.form.is_smooth_join(span.entry.face, span.exit.face);
+    let normal = |c: &Crossing| d3(part.normal(ray, c));
+    let join = part.form.is_smooth_join(span.entry.face, span.exit.face);
     wgsl::silhouette_distance(
         *pixel,
         span.entry.t as f32,
@@ -57,9 +60,9 @@ fn silhouette(plan: &Plan, lens: &Lens, ray: &Ray, span: &Span, pixel: &wgsl::Pi
     )
 }
 
-/// A flat lens is outlined by its polygon.
-fn flat_silhouette(plan: &Plan, lens: &Lens, pixel: &wgsl::PixelRay) -> f32 {
-    let corners = &lens.volume.hull;
+/// A flat part is outlined by its polygon.
+fn flat_silhouette(plan: &Plan, part: &Solid, pixel: &wgsl::PixelRay) -> f32 {
+    let corners = &part.hull;
     let around_eye = |p: glam::DVec3| d3(p - plan.view.eye);
     (0..corners.len())
         .map(|i| {

@@ -1,36 +1,37 @@
 //! Everything on one view ray: layers, hits in order, the visible fragment, the colour.
 
+mod moved;
 mod removed;
 
 use glam::{Vec3, Vec4};
 use obvhs::ray::Ray as BvhRay;
 
 use super::convert::d3;
-use super::geometry::{Geometry, Reach};
+use super::geometry::{Geometry, Reach, Triangle};
 use super::glass::{self, GlassHit};
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
 use crate::lens::RayLayers;
-use crate::plan::{LensSet, Plan};
+use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
 use crate::view::Ray;
 
+use moved::MovedLayers;
 pub use removed::Removed;
 
 /// A surface sample on a ray, classified.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fragment {
-    /// Into [`Plan::items`].
-    pub item: u32,
+    /// Into [`Plan::instances`].
+    pub instance: u32,
     /// Into the item's triangles.
     pub triangle: u32,
     pub depth: f32,
     /// Barycentric weights of the triangle's corners.
     pub weights: Vec3,
-    /// The lenses around it (S) and those of them that act.
-    pub set: LensSet,
-    pub stack: LensSet,
+    /// The lenses around it (S) and those of them, or the rule, that act.
+    pub region: Region,
 }
 
 /// The visible fragment of a pixel (SEMANTICS 6.4).
@@ -59,14 +60,15 @@ pub struct Tracer<'a> {
     reach: Reach,
     /// Lenses whose filters may make a fragment translucent.
     translucent: LensSet,
-    /// For each content but the scene: the lenses that show it.
-    shown_by: Vec<LensSet>,
+    /// For each geometry: the lenses without which nothing of it is seen, or `None` where some of it may be seen anyway.
+    seen_by: Vec<Option<LensSet>>,
 }
 
 /// Buffers that live from ray to ray.
 #[derive(Default)]
 pub struct Scratch {
     layers: RayLayers,
+    moved: MovedLayers,
     fragments: Vec<Fragment>,
     glass: Vec<GlassHit>,
 }
@@ -76,18 +78,25 @@ type Opaque = Option<Fragment>;
 
 impl<'a> Tracer<'a> {
     pub fn new(scene: &'a Scene, plan: &'a Plan, geometry: &'a [Geometry]) -> Self {
+        let lenses = LensSet::below(plan.lenses.len());
         let shown = |content: usize| {
             let items = plan.items.iter().filter(|item| item.content == content);
             items.fold(LensSet::EMPTY, |all, item| all | item.shown_by)
         };
+        let moving = plan.instances.iter().filter_map(|instance| instance.steps.first());
+        let moving = moving.fold(LensSet::EMPTY, |all, step| all | LensSet::only(step.rank));
+        // A rule, or a lens that takes whole objects, may show something anywhere.
+        let needed =
+            |lenses_needed: LensSet| lenses_needed.minus(plan.by_pixel & lenses).is_empty().then_some(lenses_needed);
+        let alternates = (1..plan.contents.len()).map(|content| needed(shown(content)));
         Self {
             scene,
             plan,
             geometry,
             shader: Shader::new(scene, plan),
             reach: Reach::new(&plan.view),
-            translucent: (0..plan.lenses.len()).filter(|rank| plan.lenses[*rank].translucent).collect(),
-            shown_by: (0..plan.contents.len()).map(shown).collect(),
+            translucent: plan.translucent(),
+            seen_by: std::iter::once(None).chain(alternates).chain([needed(moving)]).collect(),
         }
     }
 
@@ -153,15 +162,14 @@ impl<'a> Tracer<'a> {
     fn trace(&self, ray: &Ray, ranks: &[usize], scratch: &mut Scratch) -> Opaque {
         scratch.fragments.clear();
         scratch.glass.clear();
+        scratch.moved.clear();
         let volumes = ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume));
         scratch.layers.find(volumes, ray, self.plan.view.near, self.plan.view.far);
         let around = scratch.layers.starts.iter().fold(LensSet::EMPTY, |all, start| all | start.set);
         let mut opaque: Opaque = None;
-        for (content, geometry) in self.geometry.iter().enumerate() {
-            let shown = content == 0
-                || !(self.shown_by[content] & around).is_empty()
-                || !self.shown_by[content].minus(self.plan.by_pixel).is_empty();
-            if shown && !geometry.triangles.is_empty() {
+        for (geometry, seen_by) in self.geometry.iter().zip(&self.seen_by) {
+            let seen = seen_by.is_none_or(|lenses| !(lenses & around).is_empty());
+            if seen && !geometry.triangles.is_empty() {
                 self.trace_content(geometry, ray, scratch, &mut opaque);
             }
         }
@@ -189,12 +197,12 @@ impl<'a> Tracer<'a> {
             if hit.t > *end || depth < near || depth > far || self.is_culled(triangle, direction) {
                 return;
             }
-            let Some(fragment) = self.classify(triangle.item, triangle.index, depth, hit.weights, &scratch.layers)
+            let Some(fragment) = self.classify(ray, triangle, depth, hit.weights, &scratch.layers, &mut scratch.moved)
             else {
                 return;
             };
-            let item = &self.plan.items[fragment.item as usize];
-            if item.translucent || !(fragment.stack & self.translucent).is_empty() {
+            let translucent = self.item(fragment.instance).translucent;
+            if translucent || !(fragment.region.stack & self.translucent).is_empty() {
                 scratch.fragments.push(fragment);
             } else if opaque.is_none_or(|known| self.key(&fragment) < self.key(&known)) {
                 *opaque = Some(fragment);
@@ -218,18 +226,43 @@ impl<'a> Tracer<'a> {
     }
 
     /// The fragment with its lenses, unless they take it away.
-    fn classify(&self, item: u32, triangle: u32, depth: f32, weights: Vec3, layers: &RayLayers) -> Option<Fragment> {
-        let subject = &self.plan.items[item as usize];
-        let inside = layers.set_at(f64::from(depth));
-        let verdict = self.plan.walk(subject, inside);
-        verdict.displayed.then_some(Fragment { item, triangle, depth, weights, set: verdict.set, stack: verdict.stack })
+    fn classify(
+        &self,
+        ray: &Ray,
+        triangle: &Triangle,
+        depth: f32,
+        weights: Vec3,
+        layers: &RayLayers,
+        moved: &mut MovedLayers,
+    ) -> Option<Fragment> {
+        let verdict = self.verdict(ray, triangle.instance, depth, layers, moved);
+        let region = Region { set: verdict.set, stack: verdict.stack };
+        let Triangle { instance, index, .. } = *triangle;
+        verdict.displayed.then_some(Fragment { instance, triangle: index, depth, weights, region })
     }
 
-    fn is_culled(&self, triangle: &super::geometry::Triangle, direction: Vec3) -> bool {
+    fn verdict(&self, ray: &Ray, instance: u32, depth: f32, layers: &RayLayers, moved: &mut MovedLayers) -> Verdict {
+        let instance = self.instance(instance);
+        let depth = f64::from(depth);
+        self.plan.walk(instance, |step| match step.checked_sub(1) {
+            None => layers.set_at(depth),
+            Some(passed) => moved.below(self.plan, ray, &instance.steps[passed]).set_at(depth),
+        })
+    }
+
+    fn instance(&self, instance: u32) -> &'a Instance {
+        &self.plan.instances[instance as usize]
+    }
+
+    fn item(&self, instance: u32) -> &'a Item {
+        &self.plan.items[self.instance(instance).item]
+    }
+
+    fn is_culled(&self, triangle: &Triangle, direction: Vec3) -> bool {
         if !self.plan.cull_backfaces {
             return false;
         }
-        let item = &self.plan.items[triangle.item as usize];
+        let item = self.item(triangle.instance);
         if self.scene.materials[item.material].double_sided != 0 {
             return false;
         }
@@ -240,7 +273,7 @@ impl<'a> Tracer<'a> {
 
     /// Nearest first; at equal depths by content, node, primitive and triangle.
     fn key(&self, fragment: &Fragment) -> (f32, u32) {
-        (fragment.depth, self.plan.items[fragment.item as usize].first_triangle + fragment.triangle)
+        (fragment.depth, self.item(fragment.instance).first_triangle + fragment.triangle)
     }
 
     /// The ray of a point of the picture: in the world for intervals, around the eye for shading.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::geometry::Geometry;
 use super::pixel::{PixelReport, Removed, Scratch, Tracer, Visible};
 use crate::appearance as wgsl;
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, RegionTable};
 use crate::lens::PixelRect;
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -55,14 +55,18 @@ impl<'a> Renderer<'a> {
         let count = size[0] as usize * size[1] as usize;
         let mut pixels = vec![[0; 4]; count];
         let mut maps = aovs.then(|| Aovs::empty(size));
+        let mut table = RegionTable::default();
         for result in results {
             for (i, (x, y)) in pixels_of(&result.rect).enumerate() {
                 let at = (y * size[0] + x) as usize;
                 pixels[at] = result.pixels[i];
                 if let Some(maps) = &mut maps {
-                    self.store(maps, at, &result.centers[i]);
+                    self.store(maps, &mut table, at, &result.centers[i]);
                 }
             }
+        }
+        if let Some(maps) = &mut maps {
+            maps.table = table.table;
         }
         Frame { size, pixels, aovs: maps }
     }
@@ -117,11 +121,12 @@ impl<'a> Renderer<'a> {
         [encode(straight.x), encode(straight.y), encode(straight.z), (sum.w.clamp(0.0, 1.0) * 255.0).round() as u8]
     }
 
-    fn store(&self, maps: &mut Aovs, at: usize, center: &Center) {
+    fn store(&self, maps: &mut Aovs, table: &mut RegionTable, at: usize, center: &Center) {
         maps.layers[at] = center.layers;
         let Some(visible) = &center.visible else { return };
-        maps.sets[at] = Some(visible.fragment.set);
-        maps.nodes[at] = self.plan.items[visible.fragment.item as usize].node as u32 + 1;
+        maps.regions[at] = table.number(visible.fragment.region);
+        let item = self.plan.instances[visible.fragment.instance as usize].item;
+        maps.nodes[at] = self.plan.items[item].node as u32 + 1;
         maps.depth[at] = visible.fragment.depth;
         maps.normals[at] = visible.normal.to_array();
     }

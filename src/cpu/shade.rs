@@ -1,13 +1,14 @@
 //! From a hit to a colour: attributes, textures, the stack's filters, light.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, g2, g3, g4, light, op, v2, v3, v4};
 use super::pixel::Fragment;
 use super::texture;
 use crate::appearance as wgsl;
-use crate::plan::{Item, LensSet, Plan};
+use crate::plan::{Instance, Item, Plan};
 use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot};
+use crate::spec::By;
 
 /// The records of a plan in the form that the translated shaders take.
 pub struct Shader<'a> {
@@ -16,13 +17,12 @@ pub struct Shader<'a> {
     ops: Vec<wgsl::Op>,
     lights: Vec<wgsl::Light>,
     up: Vec3,
-    /// Origin of the plan's texture space, around the eye.
-    texture_origin: Vec3,
-    items: Vec<ItemTransform>,
+    /// Of each instance.
+    transforms: Vec<Transform>,
 }
 
-/// From an item's local space to the world's axes around the eye: for points, and for normals.
-struct ItemTransform {
+/// From local space to the world's axes around the eye as shown: for points, and for normals.
+struct Transform {
     point: glam::Affine3A,
     normal: glam::Mat3,
 }
@@ -63,13 +63,14 @@ impl Corners<'_> {
 
 impl<'a> Shader<'a> {
     pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
-        let items = plan
-            .items
+        let transforms = plan
+            .instances
             .iter()
-            .map(|item| {
-                let mut around = scene.models[item.model].nodes[item.node].world_from_local;
+            .map(|instance| {
+                let item = &plan.items[instance.item];
+                let mut around = instance.shown_from_world * scene.models[item.model].nodes[item.node].world_from_local;
                 around.translation -= plan.view.eye;
-                ItemTransform { point: around.as_affine3a(), normal: around.matrix3.inverse().transpose().as_mat3() }
+                Transform { point: around.as_affine3a(), normal: around.matrix3.inverse().transpose().as_mat3() }
             })
             .collect();
         Self {
@@ -77,15 +78,15 @@ impl<'a> Shader<'a> {
             plan,
             ops: plan.ops.iter().map(op).collect(),
             lights: plan.lighting.lights.iter().map(|l| light(&l.around(plan.view.eye))).collect(),
-            texture_origin: (plan.texture_space.origin.as_dvec3() - plan.view.eye).as_vec3(),
             up: plan.lighting.up,
-            items,
+            transforms,
         }
     }
 
     /// Runs the stack on a fragment that a pixel's ray has met.
     pub fn shade(&self, fragment: &Fragment, ray: &wgsl::PixelRay) -> Shaded {
-        let item = &self.plan.items[fragment.item as usize];
+        let instance = &self.plan.instances[fragment.instance as usize];
+        let item = &self.plan.items[instance.item];
         let corners = self.corners(item, fragment);
         let [a, b, c] = corners.around.map(v3);
         let weights = fragment.weights;
@@ -94,37 +95,54 @@ impl<'a> Shader<'a> {
         let view = -g3(ray.direction).normalize();
         let mut surface = self.surface(item, fragment, &corners, geometric, view, ray);
         let normal = g3(surface.normal);
-        for op in self.stack_ops(fragment.stack) {
+        let position = g3(surface.position);
+        let ops = || {
+            fragment.region.stack.iter().flat_map(|rank| {
+                let amount = self.amount(rank, instance, position);
+                self.ops[self.plan.ops_of(rank)].iter().map(move |op| (rank, op, amount))
+            })
+        };
+        for (rank, op, amount) in ops() {
             let texel = if op.kind == wgsl::OP_TEXTURE.0 {
-                self.filter_texel(op, &corners, weights, g3(surface.position), normal, ray)
+                let source = instance.source_from_shown(rank, op.inner != 0);
+                self.filter_texel(op, &corners, weights, position, normal, &source, ray)
             } else {
                 Vec4::ONE
             };
-            surface = wgsl::filter_surface(*op, surface, v4(texel));
+            surface = wgsl::faded_surface(surface, wgsl::filter_surface(*op, surface, v4(texel)), amount);
         }
         let opacity = wgsl::surface_opacity(surface);
         let mut color = g3(wgsl::emitted(surface, v3(self.light(surface))));
-        for op in self.stack_ops(fragment.stack) {
-            color = g3(wgsl::filter_color(*op, v3(color)));
+        for (_, op, amount) in ops() {
+            color = color.lerp(g3(wgsl::filter_color(*op, v3(color))), amount);
         }
         let mut shaded = wgsl::Shaded { color: v3(color), opacity, coverage: 1.0 };
         let mut edge = None;
-        for op in self.stack_ops(fragment.stack).filter(|op| op.kind == wgsl::OP_WIREFRAME.0) {
+        for (_, op, amount) in ops().filter(|(_, op, _)| op.kind == wgsl::OP_WIREFRAME.0) {
             let edge = *edge.get_or_insert_with(|| wgsl::wire_distance(*ray, a, b, c));
-            shaded = wgsl::filter_wireframe(*op, shaded, edge);
+            shaded = wgsl::faded_shaded(shaded, wgsl::filter_wireframe(*op, shaded, edge), amount);
         }
         Shaded { color: g3(shaded.color), opacity: shaded.opacity, coverage: shaded.coverage, normal }
     }
 
-    fn stack_ops(&self, stack: LensSet) -> impl Iterator<Item = &wgsl::Op> {
-        stack.iter().flat_map(|rank| &self.ops[self.plan.lenses[rank].ops.clone()])
+    /// How much a lens's appearance filters count on a fragment shown at `position` (around the eye).
+    fn amount(&self, rank: usize, instance: &Instance, position: Vec3) -> f32 {
+        let Some(lens) = self.plan.lenses.get(rank).filter(|lens| lens.soft > 0.0) else { return 1.0 };
+        let asked = match lens.by {
+            By::Pixel => {
+                let shown = position.as_dvec3() + self.plan.view.eye;
+                instance.source_from_shown(rank, false).transform_point3(shown)
+            }
+            By::Object => self.plan.items[instance.item].center,
+        };
+        (lens.volume.depth_inside(asked) / lens.soft).clamp(0.0, 1.0) as f32
     }
 
     fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'a> {
         let model = &self.scene.models[item.model];
         let primitive = &model.meshes[item.mesh].primitives[item.primitive];
         let indices = primitive.triangles[fragment.triangle as usize].map(|i| i as usize);
-        let to_eye = &self.items[fragment.item as usize].point;
+        let to_eye = &self.transforms[fragment.instance as usize].point;
         let around = indices.map(|i| to_eye.transform_point3(primitive.positions[i]));
         Corners { primitive, indices, around }
     }
@@ -163,7 +181,7 @@ impl<'a> Shader<'a> {
             alpha_mode: material.alpha_mode,
             alpha_cutoff: material.alpha_cutoff,
             opacity: 1.0,
-            unlit: material.unlit,
+            unlit: material.unlit as f32,
         }
     }
 
@@ -176,7 +194,7 @@ impl<'a> Shader<'a> {
         view: Vec3,
         ray: &wgsl::PixelRay,
     ) -> Vec3 {
-        let transform = &self.items[fragment.item as usize];
+        let transform = &self.transforms[fragment.instance as usize];
         let weights = fragment.weights;
         let mut normal = match &corners.primitive.normals {
             Some(normals) => (transform.normal * corners.interpolated(normals, weights)).normalize_or(geometric),
@@ -225,7 +243,8 @@ impl<'a> Shader<'a> {
         texture::sample(&self.scene.textures, index, at, footprint)
     }
 
-    /// The texel of a `texture` filter.
+    /// The texel of a `texture` filter; `source`: from the shown point to where the filter acts, a similarity.
+    #[expect(clippy::too_many_arguments, reason = "a hit, its surface and its ray")]
     fn filter_texel(
         &self,
         op: &wgsl::Op,
@@ -233,6 +252,7 @@ impl<'a> Shader<'a> {
         weights: Vec3,
         position: Vec3,
         normal: Vec3,
+        source: &DAffine3,
         ray: &wgsl::PixelRay,
     ) -> Vec4 {
         let scale = Vec2::new(op.a.x, op.a.y);
@@ -240,18 +260,19 @@ impl<'a> Shader<'a> {
             return self.sample(op.texture, corners.uv(0).map(|uv| uv * scale), corners, weights, ray);
         }
         let space = &self.plan.texture_space;
-        let project =
-            |p: Vec3| g2(wgsl::projected_uv(op.flags, v3((p - self.texture_origin) * space.scale), v3(normal))) * scale;
+        let mapped = source.transform_point3(position.as_dvec3() + self.plan.view.eye) - space.origin.as_dvec3();
+        let uv = g2(wgsl::projected_uv(op.flags, v3(mapped.as_vec3() * space.scale), v3(normal))) * scale;
         let size = texture::size(&self.scene.textures, op.texture);
         // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
         let span = g2(wgsl::position_footprint(*ray, v3(position), v3(normal)));
-        let footprint = span.max_element() * space.scale * (scale.abs() * size).max_element();
-        texture::sample(&self.scene.textures, op.texture, project(position), footprint)
+        let reach = source.matrix3.x_axis.length() as f32;
+        let footprint = span.max_element() * reach * space.scale * (scale.abs() * size).max_element();
+        texture::sample(&self.scene.textures, op.texture, uv, footprint)
     }
 
     /// Light that a surface sends to the viewer.
     fn light(&self, surface: wgsl::Surface) -> Vec3 {
-        if surface.unlit != 0 {
+        if surface.unlit >= 1.0 {
             return Vec3::ZERO;
         }
         let ambient = g3(wgsl::ambient_light(surface, self.plan.lighting.ambient, v3(self.up)));

@@ -1,20 +1,20 @@
 //! Reads the maps of pixel centres that `shaders/gpu/aov.wgsl` writes.
 
 use super::Window;
-use crate::frame::Aovs;
-use crate::plan::LensSet;
+use crate::frame::{Aovs, RegionTable};
+use crate::plan::{LensSet, Region};
 
-/// Words a pixel ahead of those of its set; `MAP_WORDS` of the shader.
+/// Words a pixel ahead of those of its set and its stack; `MAP_WORDS` of the shader.
 const FIXED_WORDS: u32 = 7;
 
 /// Bytes that the maps of a window need.
 pub fn bytes(window: &Window, words: u32) -> u64 {
-    4 * u64::from(FIXED_WORDS + words) * window.pixels()
+    4 * u64::from(FIXED_WORDS + 2 * words) * window.pixels()
 }
 
 /// Puts a window's share into the maps of a picture of the given width.
-pub fn store(maps: &mut Aovs, width: u32, window: &Window, words: u32, bytes: &[u8]) {
-    let stride = (FIXED_WORDS + words) as usize;
+pub fn store(maps: &mut Aovs, table: &mut RegionTable, width: u32, window: &Window, words: u32, bytes: &[u8]) {
+    let stride = (FIXED_WORDS + 2 * words) as usize;
     let values: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
     for (i, pixel) in values.chunks_exact(stride).take(window.pixels() as usize).enumerate() {
         let (x, y) = (i as u32 % window.size[0], i as u32 / window.size[0]);
@@ -24,7 +24,9 @@ pub fn store(maps: &mut Aovs, width: u32, window: &Window, words: u32, bytes: &[
             maps.nodes[at] = pixel[1];
             maps.depth[at] = f32::from_bits(pixel[2]);
             maps.normals[at] = [pixel[3], pixel[4], pixel[5]].map(f32::from_bits);
-            maps.sets[at] = Some(LensSet::from_words(&pixel[FIXED_WORDS as usize..]));
+            let (set, stack) = pixel[FIXED_WORDS as usize..].split_at(words as usize);
+            let [set, stack] = [set, stack].map(LensSet::from_words);
+            maps.regions[at] = table.number(Region { set, stack });
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use super::lens_data::AffineRay;
+use super::part_data::AffineRay;
 use super::records::{FrameRecord, all_words, extended};
 use super::tiles::Tiles;
 use super::{Engine, Window};
-use crate::plan::{LensSet, Plan};
+use crate::plan::Plan;
 use crate::view::Projection;
 
 /// One pass of the whole pipeline over a window.
@@ -42,7 +42,7 @@ pub fn samples(plan: &Plan, aovs: bool) -> Vec<Sample> {
 pub fn passes(engine: Engine, tiles: &Tiles) -> u32 {
     match engine {
         Engine::Fused => 1,
-        Engine::Peel => 2 * tiles.most_lenses + 1,
+        Engine::Peel => tiles.most_layers,
     }
 }
 
@@ -63,7 +63,6 @@ impl FrameShape<'_> {
         let ray = AffineRay::new(view);
         let (clip_scale, clip_shift) = self.clip(sample.at);
         let space = plan.texture_space;
-        let translucent: LensSet = (0..plan.lenses.len()).filter(|rank| plan.lenses[*rank].translucent).collect();
         FrameRecord {
             ray_fixed: extended(ray.fixed),
             ray_base: extended(ray.base),
@@ -91,7 +90,7 @@ impl FrameShape<'_> {
             active_tiles: self.tiles.active,
             target_is_srgb: u32::from(self.target_is_srgb),
             by_pixel: all_words(&plan.by_pixel),
-            translucent: all_words(&translucent),
+            translucent: all_words(&plan.translucent()),
         }
     }
 

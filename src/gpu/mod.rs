@@ -14,10 +14,14 @@ mod frame;
 mod headless;
 mod job;
 mod lens_data;
+mod part_data;
 mod pipelines;
+mod plan_group;
+mod program;
 mod readback;
 mod records;
 mod renderer;
+mod room;
 mod shaders;
 mod targets;
 mod tiles;
@@ -28,12 +32,13 @@ pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe,
 pub use error::Error;
 pub use headless::{Headless, Timings};
 pub use renderer::{Encoded, Renderer};
-pub use shaders::{Module, source};
+pub use room::Room;
+pub use shaders::{Module, SetWords, source};
 pub use window::Window;
 
 pub mod layout {
     //! The records shared with WGSL, for tests that compare their layouts.
-    pub use super::records::{FrameRecord, ItemRecord, LensRecord, TextureInfo};
+    pub use super::records::{FrameRecord, ItemRecord, LensRecord, PartRecord, TextureInfo};
 }
 
 /// How the scene meets the layers.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::bindings::Layouts;
 use super::depth_maps::FaceVertex;
 use super::draws::Culling;
-use super::{Module, source};
+use super::{Module, SetWords, source};
 
 /// Formats of what the visibility pass draws into.
 pub const ID_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
@@ -37,8 +37,7 @@ pub struct PipelineStore {
     /// Of the views that pictures are drawn into.
     pub target: wgpu::TextureFormat,
     device: wgpu::Device,
-    /// By the 32-bit words of a lens set.
-    by_words: Mutex<BTreeMap<u32, Arc<Pipelines>>>,
+    by_words: Mutex<BTreeMap<SetWords, Arc<Pipelines>>>,
 }
 
 impl PipelineStore {
@@ -46,17 +45,17 @@ impl PipelineStore {
         Self { layouts: Layouts::new(device), target, device: device.clone(), by_words: Mutex::default() }
     }
 
-    /// The pipelines for lens sets of so many words.
-    pub fn get(&self, words: u32) -> Arc<Pipelines> {
+    /// The pipelines for sets of so many words.
+    pub fn get(&self, words: SetWords) -> Arc<Pipelines> {
         let mut kept = self.by_words.lock().unwrap_or_else(PoisonError::into_inner);
         kept.entry(words).or_insert_with(|| Arc::new(Pipelines::new(words))).clone()
     }
 }
 
-/// Pipelines for one size of lens sets; independent of scene and plan.
+/// Pipelines for one size of sets; independent of scene and plan.
 #[derive(Debug)]
 pub struct Pipelines {
-    words: u32,
+    words: SetWords,
     depth_map: OnceLock<wgpu::RenderPipeline>,
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::ComputePipeline>,
@@ -67,7 +66,7 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    fn new(words: u32) -> Self {
+    fn new(words: SetWords) -> Self {
         Self {
             words,
             depth_map: OnceLock::new(),
@@ -135,7 +134,7 @@ impl Pipelines {
     }
 }
 
-fn compile(device: &wgpu::Device, module: Module, words: u32) -> wgpu::ShaderModule {
+fn compile(device: &wgpu::Device, module: Module, words: SetWords) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(module.name()),
         source: wgpu::ShaderSource::Wgsl(source(module, words).into()),

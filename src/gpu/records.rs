@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::plan::{GlassRecord, LensSet};
+use super::SetWords;
+use crate::plan::{GlassRecord, LensSet, Plan};
 
 /// Stands for "not there" in an index.
 pub const NONE: u32 = u32::MAX;
@@ -15,11 +16,13 @@ pub const FORM_SPHERE: u32 = 1;
 pub const FORM_CONE: u32 = 2;
 pub const FORM_CAPSULE: u32 = 3;
 pub const FORM_HALF_SPACES: u32 = 4;
+pub const FORM_MESH: u32 = 5;
 
-pub const LENS_FLAT: u32 = 1;
-pub const LENS_GLASS: u32 = 2;
-pub const LENS_DEPTH_MAP: u32 = 4;
-pub const LENS_HOLDS_EYE: u32 = 8;
+pub const LENS_GLASS: u32 = 1;
+
+pub const PART_FLAT: u32 = 1;
+pub const PART_DEPTH_MAP: u32 = 2;
+pub const PART_HOLDS_EYE: u32 = 4;
 
 /// One sample, or one layer of one, of a frame.
 #[repr(C)]
@@ -52,8 +55,8 @@ pub struct FrameRecord {
     pub fragment_capacity: u32,
     pub active_tiles: u32,
     pub target_is_srgb: u32,
-    pub by_pixel: [u32; 8],
-    pub translucent: [u32; 8],
+    pub by_pixel: [u32; 12],
+    pub translucent: [u32; 12],
 }
 
 /// One item or a chunk of its triangles; its masks follow.
@@ -88,16 +91,32 @@ pub struct ItemRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct LensRecord {
-    /// The pixel's ray in the lens's own space.
+    pub glass: GlassRecord,
+    pub flags: u32,
+    pub first_part: u32,
+    pub part_count: u32,
+    /// Its program; none where it is one convex part.
+    pub first_token: u32,
+    pub token_count: u32,
+    pub first_op: u32,
+    pub op_count: u32,
+}
+
+/// One solid of a lens volume.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct PartRecord {
+    /// The pixel's ray in the part's own space.
     pub ray_fixed: [f32; 4],
     pub ray_base: [f32; 4],
     pub ray_dx: [f32; 4],
     pub ray_dy: [f32; 4],
-    /// Columns of the map from normals in the lens's own space.
+    /// Columns of the map from normals in the part's own space.
     pub normal_x: [f32; 4],
     pub normal_y: [f32; 4],
     pub normal_z: [f32; 4],
-    pub glass: GlassRecord,
+    /// Rank of its lens.
+    pub lens: u32,
     pub form: u32,
     pub flags: u32,
     pub first_plane: u32,
@@ -105,17 +124,21 @@ pub struct LensRecord {
     pub hidden: u32,
     pub first_corner: u32,
     pub corner_count: u32,
-    pub first_op: u32,
-    pub op_count: u32,
     pub r0: f32,
     pub r1: f32,
     pub length: f32,
     /// Where its depth map starts behind the layers, in words, and the pixels of the window that it covers.
     pub map_first: u32,
-    pub map_pad: u32,
     pub map_min: [u32; 2],
     pub map_size: [u32; 2],
-    pub pad: [u32; 2],
+    /// Words of a mesh: its nodes, triangles and corners.
+    pub first_node: u32,
+    pub node_count: u32,
+    pub first_triangle: u32,
+    pub first_vertex: u32,
+    /// For how many of its crossings a pixel has room.
+    pub crossing_room: u32,
+    pub pad: [u32; 3],
 }
 
 /// How a texture is sampled and where its levels lie on the pages.
@@ -132,9 +155,11 @@ pub struct TextureInfo {
     pub levels: [[u32; 4]; 16],
 }
 
-/// Words of a lens set on the device.
-pub fn set_words(lenses: usize) -> u32 {
-    lenses.div_ceil(32).max(1) as u32
+/// Words of the sets that a plan needs on the device; a stack may hold a rule.
+pub fn set_words(plan: &Plan) -> SetWords {
+    let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
+    let most_parts = plan.lenses.iter().map(|lens| lens.volume.parts.len()).max();
+    SetWords { lenses: words(plan.lenses.len() + plan.rules.len()), parts: words(most_parts.unwrap_or(1)) }
 }
 
 /// The words of a set.
@@ -143,7 +168,7 @@ pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
 }
 
 /// All words a set can have, for uniforms.
-pub fn all_words(set: &LensSet) -> [u32; 8] {
+pub fn all_words(set: &LensSet) -> [u32; 12] {
     std::array::from_fn(|i| set.word(i))
 }
 

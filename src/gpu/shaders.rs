@@ -1,5 +1,14 @@
 //! Puts the shader modules together from their files.
 
+/// 32-bit words of sets, which shaders are compiled for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SetWords {
+    /// Of the lenses of a plan.
+    pub lenses: u32,
+    /// Of the parts of one lens.
+    pub parts: u32,
+}
+
 /// A shader module: what one pipeline or a few of them run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Module {
@@ -30,9 +39,11 @@ impl Module {
     fn parts(self) -> &'static [&'static str] {
         match self {
             Module::DepthMap => &[PLANE, DEPTH_MAP],
-            Module::Layers => &[SET, PLANE, LENS, LAYERS],
+            Module::Layers => &[SET, PLANE, PART, MESH, PROGRAM, LAYERS],
             Module::Visibility => &[VISIBILITY, SET, LAYER_LOOKUP, GEOMETRY],
-            Module::Resolve => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, PLANE, LENS, GLASS, FRAGMENTS, RESOLVE],
+            Module::Resolve => {
+                &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, PLANE, PART, MESH, PROGRAM, GLASS, FRAGMENTS, RESOLVE]
+            }
             Module::Aov => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, FRAGMENTS, AOV],
             Module::Finish => &[FINISH],
         }
@@ -43,7 +54,9 @@ const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
 const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
 const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
-const LENS: &str = include_str!("../../shaders/gpu/lens.wgsl");
+const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
+const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
+const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const DEPTH_MAP: &str = include_str!("../../shaders/gpu/depth_map.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
@@ -56,14 +69,15 @@ const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
 
-/// The whole WGSL of a module for lens sets of so many 32-bit words.
-pub fn source(module: Module, words: u32) -> String {
+/// The whole WGSL of a module for sets of so many 32-bit words.
+pub fn source(module: Module, words: SetWords) -> String {
     // Extensions are enabled ahead of everything else.
     let enable = match module {
         Module::Visibility => "enable primitive_index;\n",
         _ => "",
     };
-    let mut text = format!("{enable}const WORDS: u32 = {words}u;\n");
+    let mut text =
+        format!("{enable}const WORDS: u32 = {}u;\nconst PART_WORDS: u32 = {}u;\n", words.lenses, words.parts);
     text += crate::appearance::WGSL;
     text += COMMON;
     for part in module.parts() {

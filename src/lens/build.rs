@@ -3,10 +3,10 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::halfspaces::NotSolid;
-use super::hull::hull_planes;
-use super::{Form, Plane, Polyhedron, Volume};
+use super::hull::hull_form;
+use super::{Form, LensMeshes, Plane, Polyhedron, Solid, Tree, Volume};
 use crate::scene::Aabb;
-use crate::spec::{Rotation, Shape};
+use crate::spec::{At, Rotation, Shape};
 use crate::view::{Projection, View};
 
 /// Where a lens stands: `world = attach * T * R * S * shape space`.
@@ -40,12 +40,43 @@ pub fn quaternion(rotation: Rotation) -> DQuat {
     }
 }
 
-/// The volume of a shape, or one sentence on why it has none.
-pub fn build_volume(shape: &Shape, placement: &Placement, view: &View) -> Result<Volume, String> {
+/// The volume of a shape, or one sentence on why it has none, with the place of the part that is meant.
+///
+/// `meshes` holds what the scene has opened for `mesh` shapes.
+pub fn build_volume(
+    shape: &At<Shape>,
+    placement: &Placement,
+    view: &View,
+    meshes: &LensMeshes,
+) -> Result<Volume, At<String>> {
     let world = placement.world_from_shape();
     if !(world.matrix3.determinant().abs() > 1e-30 && world.is_finite()) {
-        return Err("its scale, rotation and the node it is attached to leave no volume".into());
+        let reason = "its scale, rotation and the node it is attached to leave no volume".to_owned();
+        return Err(At::new(reason, shape.span.clone()));
     }
+    let mut parts = Vec::new();
+    for shape in shape.parts() {
+        parts.push(part(&shape.value, world, view, meshes).map_err(|reason| At::new(reason, shape.span.clone()))?);
+    }
+    let center = parts.iter().map(|part| part.center).sum::<DVec3>() / parts.len().max(1) as f64;
+    Ok(Volume { parts, tree: tree(&shape.value, &mut 0), center })
+}
+
+/// The tree of a shape whose parts are numbered in the order of the file, from `next` on.
+fn tree(shape: &Shape, next: &mut usize) -> Tree {
+    let mut trees = |list: &[At<Shape>]| list.iter().map(|shape| tree(&shape.value, next)).collect();
+    match shape {
+        Shape::Union(list) => Tree::Union(trees(list)),
+        Shape::Intersection(list) => Tree::Intersection(trees(list)),
+        Shape::Difference(list) => Tree::Difference(trees(list)),
+        _ => {
+            *next += 1;
+            Tree::Part(*next - 1)
+        }
+    }
+}
+
+fn part(shape: &Shape, world: DAffine3, view: &View, meshes: &LensMeshes) -> Result<Solid, String> {
     let v = DVec3::from_array;
     match shape {
         Shape::Sphere { center, radius } => Ok(ball(world, v(*center), DQuat::IDENTITY, DVec3::splat(*radius))),
@@ -59,20 +90,26 @@ pub fn build_volume(shape: &Shape, placement: &Placement, view: &View) -> Result
         Shape::Capsule { from, to, radius } => Ok(capsule(world, v(*from), v(*to), *radius)),
         Shape::Polytope { planes } => polytope(world, planes),
         Shape::Hull { points } => {
-            let planes = hull_planes(points)
+            let points: Vec<DVec3> = points.iter().map(|p| v(*p)).collect();
+            let (form, pose) = hull_form(&points)
                 .map_err(|_| "its points lie in one plane or on one line, so their hull has no volume".to_string())?;
-            let corners = points.iter().map(|p| v(*p)).collect();
-            Ok(solid(Form::HalfSpaces { planes, hidden: 0 }, world, corners))
+            let into_form = pose.inverse();
+            Ok(solid(form, world * pose, points.iter().map(|p| into_form.transform_point3(*p)).collect()))
         }
         Shape::Flat { corners, depth } => flat(world, corners, *depth, view),
+        Shape::Mesh(mesh) => {
+            let mesh = meshes.get(mesh).ok_or("the scene was opened without its mesh")?;
+            Ok(solid(mesh.form.clone(), world * mesh.pose, mesh.corners.to_vec()))
+        }
+        Shape::Union(_) | Shape::Intersection(_) | Shape::Difference(_) => Err("it is made of parts".into()),
     }
 }
 
-/// A volume bounded by the hull of `corners` in its canonical space; its centre is the middle of their bounds.
-fn solid(form: Form, world_from_local: DAffine3, corners: Vec<DVec3>) -> Volume {
+/// A solid bounded by the hull of `corners` in its canonical space; its centre is the middle of their bounds.
+fn solid(form: Form, world_from_local: DAffine3, corners: Vec<DVec3>) -> Solid {
     let center = Aabb::from_points(corners.iter().copied()).center();
     let hull = corners.iter().map(|p| world_from_local.transform_point3(*p)).collect();
-    Volume::new(form, world_from_local, hull, world_from_local.transform_point3(center), false)
+    Solid::new(form, world_from_local, hull, world_from_local.transform_point3(center), false)
 }
 
 /// Corners of the cube from `low` to 1.
@@ -84,7 +121,7 @@ fn cube_planes() -> Vec<Plane> {
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).collect()
 }
 
-fn ball(world: DAffine3, center: DVec3, rotation: DQuat, radii: DVec3) -> Volume {
+fn ball(world: DAffine3, center: DVec3, rotation: DQuat, radii: DVec3) -> Solid {
     let pose = DAffine3::from_scale_rotation_translation(radii, rotation, center);
     solid(Form::Sphere, world * pose, unit_corners(-1.0))
 }
@@ -96,20 +133,20 @@ fn axis_pose(from: DVec3, to: DVec3, radial: f64, along: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_cols(x * radial, y * radial, z * along), from)
 }
 
-fn cone(world: DAffine3, from: DVec3, to: DVec3, r0: f64, r1: f64) -> Volume {
+fn cone(world: DAffine3, from: DVec3, to: DVec3, r0: f64, r1: f64) -> Solid {
     let radius = r0.max(r1);
     let pose = axis_pose(from, to, radius, from.distance(to));
     let corners = Aabb { min: DVec3::new(-1.0, -1.0, 0.0), max: DVec3::ONE }.corners().to_vec();
     solid(Form::Cone { r0: r0 / radius, r1: r1 / radius }, world * pose, corners)
 }
 
-fn capsule(world: DAffine3, from: DVec3, to: DVec3, radius: f64) -> Volume {
+fn capsule(world: DAffine3, from: DVec3, to: DVec3, radius: f64) -> Solid {
     let length = from.distance(to) / radius;
     let corners = Aabb { min: DVec3::NEG_ONE, max: DVec3::new(1.0, 1.0, length + 1.0) }.corners().to_vec();
     solid(Form::Capsule { length }, world * axis_pose(from, to, radius, radius), corners)
 }
 
-fn polytope(world: DAffine3, planes: &[[f64; 4]]) -> Result<Volume, String> {
+fn polytope(world: DAffine3, planes: &[[f64; 4]]) -> Result<Solid, String> {
     let planes: Vec<Plane> = planes.iter().map(|[x, y, z, d]| Plane::new(DVec3::new(*x, *y, *z), *d)).collect();
     let faces = Polyhedron::from_planes(&planes).map_err(|reason| match reason {
         NotSolid::Unbounded => "its planes leave a side open, and a polytope must be bounded".to_string(),
@@ -119,7 +156,7 @@ fn polytope(world: DAffine3, planes: &[[f64; 4]]) -> Result<Volume, String> {
 }
 
 /// What the eye sees through a polygon (SEMANTICS 2.5): a cone of planes through the eye, cut by the polygon's own plane.
-fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) -> Result<Volume, String> {
+fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) -> Result<Solid, String> {
     let corners: Vec<DVec3> = corners.iter().map(|c| DVec3::from_array(*c)).collect();
     let normal = polygon_normal(&corners)?;
     let center = corners.iter().sum::<DVec3>() / corners.len() as f64;
@@ -141,7 +178,7 @@ fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) 
     let hull = corners.iter().map(|p| world.transform_point3(*p)).collect();
     let world_center = world.transform_point3(center);
     if edge_on {
-        return Ok(Volume::new(Form::Empty, world, hull, world_center, true));
+        return Ok(Solid::new(Form::Empty, world, hull, world_center, true));
     }
     let mut planes: Vec<Plane> = (0..corners.len())
         .map(|i| {
@@ -159,7 +196,7 @@ fn flat(world: DAffine3, corners: &[[f64; 3]], depth: Option<f64>, view: &View) 
     if let Some(depth) = depth {
         planes.push(Plane::through(away, center + away * depth));
     }
-    Ok(Volume::new(Form::HalfSpaces { planes, hidden }, world, hull, world_center, true))
+    Ok(Solid::new(Form::HalfSpaces { planes, hidden }, world, hull, world_center, true))
 }
 
 /// Unit normal (Newell) of a polygon that is planar and convex, or what is wrong with it.

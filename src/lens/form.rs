@@ -1,24 +1,35 @@
-//! Closed forms: where a line enters and leaves a convex solid in its own space.
+//! Closed forms: where a line enters and leaves a solid in its own space.
 //!
 //! Every solid is first brought to a canonical pose by an affine map, which keeps the parameter along the
 //! line. Working precision is f64: the boundaries found here are what both backends are judged by.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::Plane;
+use super::{MeshSolid, Plane};
 
-/// A convex solid in canonical pose.
+/// A solid in canonical pose; convex, but for a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form {
     /// Radius 1 about the origin.
     Sphere,
     /// Between the planes z = 0 and z = 1, with radius `r0` at the first and `r1` at the second.
-    Cone { r0: f64, r1: f64 },
+    Cone {
+        r0: f64,
+        r1: f64,
+    },
     /// All within 1 of the segment from the origin to (0, 0, `length`).
-    Capsule { length: f64 },
+    Capsule {
+        length: f64,
+    },
     /// All points with `normal·p <= offset` for every plane. The first `hidden` planes are the sides of a
     /// flat lens: they pass through the eye and are never seen.
-    HalfSpaces { planes: Vec<Plane>, hidden: usize },
+    HalfSpaces {
+        planes: Vec<Plane>,
+        hidden: usize,
+    },
+    Mesh(Arc<MeshSolid>),
     /// A flat lens seen edge on.
     Empty,
 }
@@ -28,7 +39,7 @@ pub enum Form {
 pub struct Crossing {
     /// Parameter along the line.
     pub t: f64,
-    /// Which face: an index of `HalfSpaces`; for a cone 0 and 1 are its caps and 2 its side; else 0.
+    /// Which face: an index of `HalfSpaces`; a triangle of a mesh; for a cone 0 and 1 are its caps and 2 its side; else 0.
     pub face: u32,
 }
 
@@ -39,17 +50,37 @@ pub struct Span {
     pub exit: Crossing,
 }
 
+impl Span {
+    /// The span if more of it than a point lies between two planes.
+    pub fn between(self, near: f64, far: f64) -> Option<Span> {
+        (self.entry.t.max(near) < self.exit.t.min(far)).then_some(self)
+    }
+}
+
 const CONE_SIDE: u32 = 2;
 
 impl Form {
-    /// The part of the line `origin + t * direction` inside the solid; `None` when it misses or only grazes.
+    pub fn is_convex(&self) -> bool {
+        !matches!(self, Form::Mesh(_))
+    }
+
+    /// Appends the parts of the line `origin + t * direction` inside the solid, nearest first; none where it misses or
+    /// only grazes.
+    pub fn spans(&self, origin: DVec3, direction: DVec3, out: &mut Vec<Span>) {
+        match self {
+            Form::Mesh(mesh) => mesh.spans(origin, direction, out),
+            _ => out.extend(self.span(origin, direction)),
+        }
+    }
+
+    /// The only span that a convex solid can have.
     pub fn span(&self, origin: DVec3, direction: DVec3) -> Option<Span> {
         let span = match self {
             Form::Sphere => sphere_span(origin, direction),
             Form::Cone { r0, r1 } => cone_span(origin, direction, *r0, *r1),
             Form::Capsule { length } => capsule_span(origin, direction, *length),
             Form::HalfSpaces { planes, .. } => halfspace_span(origin, direction, planes),
-            Form::Empty => None,
+            Form::Mesh(_) | Form::Empty => None,
         }?;
         (span.exit.t > span.entry.t).then_some(span)
     }
@@ -63,11 +94,13 @@ impl Form {
             }
             Form::Capsule { length } => (p - nearest_on_axis(p, *length)).length_squared() <= 1.0,
             Form::HalfSpaces { planes, .. } => planes.iter().all(|plane| plane.distance(p) <= 0.0),
+            Form::Mesh(mesh) => mesh.contains(p),
             Form::Empty => false,
         }
     }
 
-    /// Outward normal, of any length, at a point of the given face.
+    /// Normal, of any length, at a point of the given face; outward, but for a mesh, whose triangles may be turned
+    /// either way.
     pub fn normal(&self, face: u32, p: DVec3) -> DVec3 {
         match self {
             Form::Sphere => p,
@@ -79,6 +112,7 @@ impl Form {
             }
             Form::Capsule { length } => p - nearest_on_axis(p, *length),
             Form::HalfSpaces { planes, .. } => planes[face as usize].normal,
+            Form::Mesh(mesh) => mesh.normal(face),
             Form::Empty => DVec3::ZERO,
         }
     }
@@ -88,7 +122,7 @@ impl Form {
         match self {
             Form::Sphere | Form::Capsule { .. } => true,
             Form::Cone { .. } => a == CONE_SIDE && b == CONE_SIDE,
-            Form::HalfSpaces { .. } | Form::Empty => false,
+            Form::HalfSpaces { .. } | Form::Mesh(_) | Form::Empty => false,
         }
     }
 
@@ -98,7 +132,7 @@ impl Form {
     }
 }
 
-fn nearest_on_axis(p: DVec3, length: f64) -> DVec3 {
+pub(super) fn nearest_on_axis(p: DVec3, length: f64) -> DVec3 {
     DVec3::new(0.0, 0.0, p.z.clamp(0.0, length))
 }
 

@@ -1,10 +1,15 @@
 //! The layers of one view ray: the lenses' intervals cut it into stretches with a constant set of lenses.
 
-use super::{LensSet, Volume};
+use super::{Interval, LensSet, Volume};
 use crate::view::Ray;
 
 /// Boundaries closer than this share of the depth are one (SEMANTICS 2.1).
 const MERGE: f64 = 1e-5;
+
+/// Whether a boundary is another one than the boundary at `first` before it.
+pub(super) fn starts_boundary(first: f64, depth: f64) -> bool {
+    depth - first > MERGE * first.abs()
+}
 
 /// A layer begins: from `depth` to the next start the lenses in `set` are around the ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +23,7 @@ pub struct LayerStart {
 pub struct RayLayers {
     pub starts: Vec<LayerStart>,
     boundaries: Vec<(f64, usize)>,
+    intervals: Vec<Interval>,
 }
 
 impl RayLayers {
@@ -27,21 +33,24 @@ impl RayLayers {
         self.boundaries.clear();
         let mut set = LensSet::EMPTY;
         for (rank, volume) in volumes {
-            let Some(interval) = volume.interval(ray, near, far) else { continue };
-            if interval.entry > near {
-                self.boundaries.push((interval.entry, rank));
-            } else {
-                set.insert(rank);
-            }
-            if interval.exit < far {
-                self.boundaries.push((interval.exit, rank));
+            self.intervals.clear();
+            volume.intervals(ray, near, far, &mut self.intervals);
+            for interval in &self.intervals {
+                if interval.entry > near {
+                    self.boundaries.push((interval.entry, rank));
+                } else {
+                    set.insert(rank);
+                }
+                if interval.exit < far {
+                    self.boundaries.push((interval.exit, rank));
+                }
             }
         }
         self.starts.push(LayerStart { depth: near, set });
         self.boundaries.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut rest = self.boundaries.as_slice();
         while let Some(&(depth, _)) = rest.first() {
-            let merged = rest.iter().take_while(|b| b.0 - depth <= MERGE * depth.abs()).count();
+            let merged = rest.iter().take_while(|b| !starts_boundary(depth, b.0)).count();
             for (_, rank) in &rest[..merged] {
                 // A lens that enters and leaves at one boundary has no interval.
                 if set.contains(*rank) {
@@ -55,9 +64,11 @@ impl RayLayers {
         }
     }
 
-    /// The lenses around a depth: membership is half-open, `entry <= depth < exit`.
+    /// The lenses around a depth: membership is half-open, `entry <= depth < exit`. A boundary that is as close as two
+    /// that merge is reached: whether a surface in a lens face is inside must not depend on rounding.
     pub fn set_at(&self, depth: f64) -> LensSet {
-        self.starts.iter().rev().find(|start| start.depth <= depth).map_or(LensSet::EMPTY, |start| start.set)
+        let reached = |start: &&LayerStart| !starts_boundary(depth, start.depth);
+        self.starts.iter().rev().find(reached).map_or(LensSet::EMPTY, |start| start.set)
     }
 
     /// One more than the distinct boundaries between near and far.

@@ -2,10 +2,12 @@
 
 /// The most lenses one spec may have enabled.
 pub const MAX_LENSES: usize = 256;
+/// The most overlap rules one spec may have.
+pub const MAX_RULES: usize = 128;
 
-const WORDS: usize = MAX_LENSES / 64;
+const WORDS: usize = (MAX_LENSES + MAX_RULES) / 64;
 
-/// A set of ranks below [`MAX_LENSES`].
+/// A set of lenses by rank. In a stack the ranks behind the last lens stand for the overlap rules.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct LensSet([u64; WORDS]);
 
@@ -63,6 +65,11 @@ impl LensSet {
 
     pub fn minus(self, other: Self) -> Self {
         Self(std::array::from_fn(|i| self.0[i] & !other.0[i]))
+    }
+
+    /// The set of one rank.
+    pub fn only(rank: usize) -> Self {
+        Self::from_iter([rank])
     }
 
     /// Bits `32 * index ..` as the GPU stores them.

@@ -1,23 +1,19 @@
-//! A lens volume placed in the world.
+//! A lens volume: solids put together.
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::DVec3;
 
-use super::{Crossing, Form, Span};
+use super::tree::Algebra;
+use super::{Crossing, PixelRect, Solid, Span, Tree, starts_boundary};
 use crate::scene::Aabb;
 use crate::view::{Ray, View};
 
-/// A convex volume: a canonical solid and the affine map that places it.
+/// The volume of one lens: its parts, and how they are put together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Volume {
-    pub form: Form,
-    pub world_from_local: DAffine3,
-    pub local_from_world: DAffine3,
-    /// World points whose convex hull holds the volume or, for a flat lens, what it is seen through.
-    pub hull: Vec<DVec3>,
-    /// World space. For a flat lens the mean of the corners.
+    pub parts: Vec<Solid>,
+    pub tree: Tree,
+    /// World space. For a compound the mean of the parts' centres.
     pub center: DVec3,
-    /// A flat lens reaches away from the eye beyond `hull`.
-    pub is_flat: bool,
 }
 
 /// What a view ray has inside a volume between near and far: `entry <= depth < exit`.
@@ -27,87 +23,144 @@ pub struct Interval {
     pub exit: f64,
 }
 
-/// Whole pixels `min.. max` of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PixelRect {
-    pub min: [u32; 2],
-    pub max: [u32; 2],
+/// Where a ray enters or leaves a volume.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Boundary {
+    pub depth: f64,
+    /// The part whose surface this is: the first at this depth that makes a difference.
+    pub part: usize,
+    /// What the ray has inside that part.
+    pub span: Span,
+    /// Whether the ray enters the part here, rather than leaves it.
+    pub enters_part: bool,
+    /// Whether it enters the volume.
+    pub enters: bool,
 }
 
-impl PixelRect {
-    pub const EMPTY: PixelRect = PixelRect { min: [0, 0], max: [0, 0] };
-
-    pub fn is_empty(&self) -> bool {
-        self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
+impl Boundary {
+    /// The ends of a span that lie strictly between two planes, as boundaries of its part alone.
+    fn ends(part: usize, span: Span, near: f64, far: f64) -> impl Iterator<Item = Boundary> {
+        let at = move |depth: f64, enters: bool| Boundary { depth, part, span, enters_part: enters, enters };
+        [at(span.entry.t, true), at(span.exit.t, false)].into_iter().filter(move |b| b.depth > near && b.depth < far)
     }
 
-    pub fn area(&self) -> u64 {
-        if self.is_empty() { 0 } else { u64::from(self.max[0] - self.min[0]) * u64::from(self.max[1] - self.min[1]) }
-    }
-
-    pub fn overlaps(&self, other: &PixelRect) -> bool {
-        !self.is_empty()
-            && !other.is_empty()
-            && (0..2).all(|i| self.min[i] < other.max[i] && other.min[i] < self.max[i])
+    pub fn crossing(&self) -> &Crossing {
+        if self.enters_part { &self.span.entry } else { &self.span.exit }
     }
 }
 
 impl Volume {
-    pub fn new(form: Form, world_from_local: DAffine3, hull: Vec<DVec3>, center: DVec3, is_flat: bool) -> Self {
-        Self { form, world_from_local, local_from_world: world_from_local.inverse(), hull, center, is_flat }
+    /// Whether the shape itself is a flat polygon, rather than a compound of such.
+    pub fn is_flat(&self) -> bool {
+        matches!(self.tree, Tree::Part(part) if self.parts[part].is_flat)
     }
 
-    /// Where the whole line of a ray is inside, before any clipping.
-    pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let origin = self.local_from_world.transform_point3(ray.origin);
-        let direction = self.local_from_world.transform_vector3(ray.direction);
-        self.form.span(origin, direction)
+    /// The only part, if it is convex: a ray has at most one interval, and nothing needs to be put together.
+    pub fn lone(&self) -> Option<(usize, &Solid)> {
+        match self.tree {
+            Tree::Part(part) if self.parts[part].form.is_convex() => Some((part, &self.parts[part])),
+            _ => None,
+        }
     }
 
-    /// The interval of SEMANTICS section 2: cut by near and far, none when the ray only grazes.
-    pub fn interval(&self, ray: &Ray, near: f64, far: f64) -> Option<Interval> {
-        let span = self.span(ray)?;
-        let interval = Interval { entry: span.entry.t.max(near), exit: span.exit.t.min(far) };
-        (interval.entry < interval.exit).then_some(interval)
+    /// Appends the intervals of SEMANTICS section 2, nearest first: cut by near and far, none where the ray only grazes.
+    pub fn intervals(&self, ray: &Ray, near: f64, far: f64, out: &mut Vec<Interval>) {
+        if let Some((_, solid)) = self.lone() {
+            let span = solid.span(ray).and_then(|span| span.between(near, far));
+            out.extend(span.map(|span| Interval { entry: span.entry.t.max(near), exit: span.exit.t.min(far) }));
+            return;
+        }
+        let mut boundaries = Vec::new();
+        let mut entry = self.boundaries(ray, near, far, &mut boundaries).then_some(near);
+        for boundary in boundaries {
+            match entry.take() {
+                Some(entry) => out.push(Interval { entry, exit: boundary.depth }),
+                None => entry = Some(boundary.depth),
+            }
+        }
+        out.extend(entry.map(|entry| Interval { entry, exit: far }));
+    }
+
+    /// Appends where a ray enters and leaves the volume strictly between near and far, nearest first; returns whether
+    /// it is inside at the near plane.
+    pub fn boundaries(&self, ray: &Ray, near: f64, far: f64, out: &mut Vec<Boundary>) -> bool {
+        if let Some((part, solid)) = self.lone() {
+            let Some(span) = solid.span(ray).and_then(|span| span.between(near, far)) else { return false };
+            out.extend(Boundary::ends(part, span, near, far));
+            return span.entry.t <= near;
+        }
+        let mut inside = vec![false; self.parts.len()];
+        let mut crossings: Vec<Boundary> = Vec::new();
+        let mut spans = Vec::new();
+        for (part, solid) in self.parts.iter().enumerate() {
+            spans.clear();
+            solid.spans(ray, &mut spans);
+            for span in spans.iter().filter_map(|span| span.between(near, far)) {
+                inside[part] |= span.entry.t <= near;
+                crossings.extend(Boundary::ends(part, span, near, far));
+            }
+        }
+        crossings.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        let starts_inside = self.tree.holds(&|part| inside[part]);
+        self.changes(&crossings, &mut inside, out);
+        starts_inside
+    }
+
+    /// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several
+    /// parts change; it is one of the volume where the whole then holds and did not, or the other way round.
+    fn changes(&self, crossings: &[Boundary], inside: &mut [bool], out: &mut Vec<Boundary>) {
+        let mut held = self.tree.holds(&|part| inside[part]);
+        let mut rest = crossings;
+        while let Some(first) = rest.first() {
+            let merged = rest.iter().take_while(|c| !starts_boundary(first.depth, c.depth)).count();
+            let mut holds = held;
+            let mut changed = None;
+            for crossing in &rest[..merged] {
+                inside[crossing.part] = crossing.enters_part;
+                holds = self.tree.holds(&|part| inside[part]);
+                if holds != held {
+                    changed = changed.or(Some(crossing));
+                }
+            }
+            if let Some(crossing) = changed.filter(|_| holds != held) {
+                out.push(Boundary { depth: first.depth, enters: holds, ..*crossing });
+            }
+            held = holds;
+            rest = &rest[merged..];
+        }
+    }
+
+    /// Outward unit normal in the world at a boundary of a ray: turned round where the part is taken away.
+    pub fn normal(&self, ray: &Ray, boundary: &Boundary) -> DVec3 {
+        let normal = self.parts[boundary.part].normal(ray, boundary.crossing());
+        if (normal.dot(ray.direction) < 0.0) == boundary.enters { normal } else { -normal }
+    }
+
+    /// Distance in world units from a point to the boundary, positive inside; of a compound to the boundaries of its
+    /// parts, which is no more than to its own.
+    pub fn depth_inside(&self, p: DVec3) -> f64 {
+        let algebra: Algebra<f64> = Algebra { union: f64::max, intersection: f64::min, difference: |a, b| a.min(-b) };
+        self.tree.fold(&algebra, &|part| self.parts[part].depth_inside(p)).unwrap_or(f64::NEG_INFINITY)
     }
 
     pub fn contains(&self, p: DVec3) -> bool {
-        self.form.contains(self.local_from_world.transform_point3(p))
+        self.tree.holds(&|part| self.parts[part].contains(p))
     }
 
-    /// Outward unit normal in the world where a ray crosses the surface.
-    pub fn normal(&self, ray: &Ray, crossing: &Crossing) -> DVec3 {
-        let local = self.form.normal(crossing.face, self.local_from_world.transform_point3(ray.at(crossing.t)));
-        (self.local_from_world.matrix3.transpose() * local).normalize_or_zero()
-    }
-
-    /// World bounds; unlimited for a flat lens.
+    /// World bounds; unlimited where a flat lens makes them so.
     pub fn bounds(&self) -> Aabb {
-        if self.is_flat {
-            return Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
-        }
-        Aabb::from_points(self.hull.iter().copied())
+        let algebra = Algebra { union: Aabb::union, intersection: Aabb::intersection, difference: |a, _| a };
+        self.tree.fold(&algebra, &|part| self.parts[part].bounds()).unwrap_or(Aabb::EMPTY)
     }
 
-    /// The pixels outside which no view ray meets the volume between near and far: the projected hull, a
-    /// pixel larger on each side; all of them where part of the hull is not in front of the eye.
+    /// World points whose convex hull holds the volume or, where it has flat parts, what those are seen through.
+    pub fn hull(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.tree.added_parts().into_iter().flat_map(|part| self.parts[part].hull.iter().copied())
+    }
+
+    /// The pixels outside which no view ray meets the volume between near and far.
     pub fn pixel_rect(&self, view: &View) -> PixelRect {
-        let depths = || self.hull.iter().map(|p| view.depth(*p));
-        let nearest = depths().fold(f64::INFINITY, f64::min);
-        let farthest = depths().fold(f64::NEG_INFINITY, f64::max);
-        if matches!(self.form, Form::Empty) || (!self.is_flat && farthest <= view.near) || nearest >= view.far {
-            return PixelRect::EMPTY;
-        }
-        let size = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1]));
-        let projected: Option<Vec<DVec2>> = self.hull.iter().map(|p| view.project(*p)).collect();
-        let (min, max) = match projected {
-            Some(points) if nearest > 0.0 || !view.is_perspective() => {
-                points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)))
-            }
-            _ => (DVec2::ZERO, size),
-        };
-        let min = (min - 1.0).floor().clamp(DVec2::ZERO, size);
-        let max = (max + 1.0).ceil().clamp(DVec2::ZERO, size);
-        PixelRect { min: [min.x as u32, min.y as u32], max: [max.x as u32, max.y as u32] }
+        let algebra = Algebra { union: PixelRect::union, intersection: PixelRect::intersection, difference: |a, _| a };
+        self.tree.fold(&algebra, &|part| self.parts[part].pixel_rect(view)).unwrap_or(PixelRect::EMPTY)
     }
 }

@@ -1,10 +1,10 @@
 //! The region AOV: which region each pixel's visible fragment lies in, and what acts there.
 
-use std::collections::BTreeSet;
+use std::collections::HashMap;
 
 use crate::InputError;
 use crate::frame::Aovs;
-use crate::plan::{LensSet, Plan, filter_name, survivors};
+use crate::plan::{Plan, Region, filter_name};
 
 /// Stands in a region map where there is no fragment.
 pub const NOTHING: u16 = u16::MAX;
@@ -12,19 +12,35 @@ pub const NOTHING: u16 = u16::MAX;
 /// A region that a picture found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundRegion {
-    /// From 1; 0 is the plain scene.
+    /// From 1; 0 is outside all lenses.
     pub id: u16,
-    pub set: LensSet,
+    pub region: Region,
     /// Names, sorted.
     pub lenses: Vec<String>,
-    /// Lens and filter, lowest first.
-    pub stack: Vec<(String, &'static str)>,
+    /// Lowest first.
+    pub stack: Vec<Entry>,
+}
+
+/// A filter that acts in a region.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    pub by: Actor,
+    pub filter: &'static str,
+}
+
+/// Whose filter it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Actor {
+    Lens(String),
+    /// The n-th `[[overlap]]`, from 0.
+    Rule(usize),
 }
 
 /// Region numbers for each pixel and what they mean.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RegionMap {
     pub ids: Vec<u16>,
+    /// By id. The plain scene is not among them, but where a rule acts outside all lenses, region 0 is.
     pub regions: Vec<FoundRegion>,
 }
 
@@ -32,53 +48,72 @@ impl RegionMap {
     /// Numbers the regions of a picture in the order of their sorted lens names; an error where 16 bits do not
     /// tell them apart.
     pub fn new(plan: &Plan, aovs: &Aovs) -> Result<Self, InputError> {
-        let found: BTreeSet<LensSet> = aovs.sets.iter().flatten().copied().filter(|s| !s.is_empty()).collect();
-        if found.len() >= usize::from(NOTHING) {
+        let mut named: Vec<(Vec<&str>, Region)> = aovs.table.iter().map(|r| (plan.names(r.set), *r)).collect();
+        named.retain(|(_, region)| *region != Region::PLAIN);
+        if named.len() >= usize::from(NOTHING) {
             let message =
-                format!("the picture has {} regions, and a region map tells {} apart", found.len(), NOTHING - 1);
+                format!("the picture has {} regions, and a region map tells {} apart", named.len(), NOTHING - 1);
             return Err(InputError::new(message).help("leave out `--aov region`"));
         }
-        let mut named: Vec<(Vec<&str>, LensSet)> = found.into_iter().map(|set| (plan.names(set), set)).collect();
         named.sort();
-        let regions: Vec<FoundRegion> = (1u16..)
-            .zip(named)
-            .map(|(id, (names, set))| FoundRegion {
-                id,
-                set,
+        let outside = usize::from(named.first().is_some_and(|(_, region)| region.set.is_empty()));
+        let regions: Vec<FoundRegion> = named
+            .into_iter()
+            .enumerate()
+            .map(|(place, (names, region))| FoundRegion {
+                id: (place + 1 - outside) as u16,
+                region,
                 lenses: names.into_iter().map(String::from).collect(),
-                stack: stack(plan, set),
+                stack: stack(plan, region),
             })
             .collect();
-        let number: std::collections::HashMap<LensSet, u16> = regions.iter().map(|r| (r.set, r.id)).collect();
-        let id = |set: &Option<LensSet>| match set {
-            None => NOTHING,
-            Some(set) => number.get(set).copied().unwrap_or(0),
-        };
-        Ok(Self { ids: aovs.sets.iter().map(id).collect(), regions })
+        let number: HashMap<Region, u16> = regions.iter().map(|r| (r.region, r.id)).collect();
+        let of_table: Vec<u16> = aovs.table.iter().map(|r| number.get(r).copied().unwrap_or(0)).collect();
+        let id = |index: &u32| of_table.get(*index as usize).copied().unwrap_or(NOTHING);
+        Ok(Self { ids: aovs.regions.iter().map(id).collect(), regions })
     }
 
     /// The table beside the map.
     pub fn json(&self) -> serde_json::Value {
-        let entry = |(lens, filter): &(String, &str)| serde_json::json!({ "lens": lens, "filter": filter });
         self.regions
             .iter()
             .map(|region| {
                 serde_json::json!({
                     "id": region.id,
                     "lenses": region.lenses,
-                    "stack": region.stack.iter().map(entry).collect::<Vec<_>>(),
+                    "stack": region.stack.iter().map(Entry::json).collect::<Vec<_>>(),
                 })
             })
             .collect()
     }
 }
 
+impl Entry {
+    pub fn json(&self) -> serde_json::Value {
+        match &self.by {
+            Actor::Lens(name) => serde_json::json!({ "lens": name, "filter": self.filter }),
+            Actor::Rule(number) => serde_json::json!({ "rule": number, "filter": self.filter }),
+        }
+    }
+}
+
+impl std::fmt::Display for Entry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match &self.by {
+            Actor::Lens(name) => write!(f, "{name}.{}", self.filter),
+            Actor::Rule(number) => write!(f, "rule {number}.{}", self.filter),
+        }
+    }
+}
+
 /// Every filter that acts in a region, content filters too, lowest first.
-pub fn stack(plan: &Plan, set: LensSet) -> Vec<(String, &'static str)> {
-    let acting = survivors(&plan.lenses, set);
-    let of_lens = |rank: usize| {
-        let lens = &plan.lenses[rank];
-        lens.filters.iter().map(|f| (lens.name.clone(), filter_name(f)))
+pub fn stack(plan: &Plan, region: Region) -> Vec<Entry> {
+    let of_rank = |rank: usize| {
+        let by = match plan.rule_of(rank) {
+            Some(rule) => Actor::Rule(rule),
+            None => Actor::Lens(plan.lenses[rank].name.clone()),
+        };
+        plan.filters_of(rank).iter().map(move |f| Entry { by: by.clone(), filter: filter_name(f) })
     };
-    acting.iter().flat_map(of_lens).collect()
+    region.stack.iter().flat_map(of_rank).collect()
 }

@@ -1,6 +1,6 @@
 //! The plan as an account: order, undecided pairs, regions, each with its reasons.
 
-use super::{Lens, LensSet, Plan, Reason, Reasons, Region, commute};
+use super::{LensSet, Plan, Reason, Reasons, Region, commute};
 use crate::spec::Spec;
 
 /// Two lenses whose order matters and that only the order of the file separates.
@@ -61,11 +61,16 @@ impl Account {
     fn regions_text(&self, spec: &Spec, plan: &Plan) -> String {
         let reasons = Reasons::new(spec, plan);
         let mut text = format!("regions that occur: {}\n", self.regions.len());
-        let acting = |lens: &Lens| format!("{} ({})", lens.name, lens.filter_names().collect::<Vec<_>>().join(", "));
-        let acting: Vec<String> = plan.lenses.iter().map(acting).collect();
+        let name = |rank: usize| match plan.rule_of(rank) {
+            Some(rule) => format!("rule in line {}", spec.source.line(spec.overlaps[rule].when.span.start)),
+            None => plan.lenses[rank].name.clone(),
+        };
+        let acting = |rank| format!("{} ({})", name(rank), plan.filter_names(rank).collect::<Vec<_>>().join(", "));
+        let acting: Vec<String> = (0..plan.lenses.len() + plan.rules.len()).map(acting).collect();
         for region in &self.regions {
             let stack: Vec<&str> = region.stack.iter().map(|rank| acting[rank].as_str()).collect();
-            text += &format!("  {}\n      stack: {}\n", plan.names(region.set).join(" + "), stack.join(" < "));
+            let lenses = if region.set.is_empty() { "no lens".into() } else { plan.names(region.set).join(" + ") };
+            text += &format!("  {lenses}\n      stack: {}\n", stack.join(" < "));
             text += &reasons.lines(region, "      ");
         }
         text

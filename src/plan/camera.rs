@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::instances;
+use super::lenses::Placed;
 use crate::InputError;
-use crate::lens::Volume;
 use crate::scene::{Aabb, Camera, Scene};
 use crate::spec::{CameraPlace, ProjectionSpec, Spec};
 use crate::view::{Projection, View};
@@ -118,13 +119,14 @@ pub(super) fn fit_depths(
     view: &mut View,
     spec: &Spec,
     scene: &Scene,
-    volumes: &[Option<Volume>],
+    volumes: &[Option<Placed>],
+    order: &[usize],
 ) -> Result<(), InputError> {
     let camera = spec.camera.as_ref();
     let (given_near, given_far) = camera
         .map_or((None, None), |c| (c.value.near.as_ref().map(|n| n.value), c.value.far.as_ref().map(|f| f.value)));
     let from_file = camera.is_some_and(|c| matches!(c.value.place, CameraPlace::Node(_)));
-    let (fitted_near, fitted_far) = fitted(view, scene, volumes);
+    let (fitted_near, fitted_far) = fitted(view, spec, scene, volumes, order);
     let (near, far) = if from_file { (view.near, view.far) } else { (fitted_near, fitted_far) };
     view.near = given_near.unwrap_or(near);
     view.far = given_far.unwrap_or(if far.is_finite() { far } else { fitted_far.max(view.near * 2.0) });
@@ -145,11 +147,23 @@ pub(super) fn fit_depths(
     Ok(())
 }
 
-fn fitted(view: &View, scene: &Scene, volumes: &[Option<Volume>]) -> (f64, f64) {
-    let hulls = volumes.iter().flatten().flat_map(|v| v.hull.iter().copied());
+fn fitted(view: &View, spec: &Spec, scene: &Scene, volumes: &[Option<Placed>], order: &[usize]) -> (f64, f64) {
+    let hulls = volumes.iter().flatten().flat_map(|placed| placed.volume.hull());
     let models = scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty()).flat_map(|b| b.corners());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for depth in models.chain(hulls).map(|p| view.depth(p)) {
+    // Whatever lenses move is seen inside them only, but a flat lens reaches as far as there is something to see.
+    let mut points: Vec<DVec3> = models.chain(hulls).collect();
+    let mut seen = Aabb::from_points(points.iter().copied());
+    for index in order {
+        let Some(placed) = volumes[*index].as_ref().filter(|placed| placed.volume.is_flat()) else { continue };
+        for filter in &spec.lenses[*index].filters {
+            if let Some(reach) = instances::reach(&filter.value, placed, &seen) {
+                points.extend(reach.corners());
+                seen = seen.union(reach);
+            }
+        }
+    }
+    for depth in points.into_iter().map(|p| view.depth(p)) {
         low = low.min(depth);
         high = high.max(depth);
     }

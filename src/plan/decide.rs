@@ -52,8 +52,8 @@ impl Plan {
 
 /// Whether two lenses' filters make the same picture in either order.
 pub fn commute(a: &super::Lens, b: &super::Lens) -> bool {
-    // Who is hidden depends on who is above.
-    if a.overrides || b.overrides {
+    // Who is hidden, and what is moved, depends on who is above.
+    if a.overrides || b.overrides || a.moves || b.moves {
         return false;
     }
     a.filters.iter().all(|f| b.filters.iter().all(|g| filters_commute(f, g)))
@@ -85,7 +85,7 @@ fn writes(filter: &Filter) -> Writes {
     let bit = |written: bool, bit: u32| if written { bit } else { 0 };
     match filter {
         Filter::Erase { .. } => Writes::Removal,
-        Filter::Show(_) => Writes::Content,
+        Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => Writes::Content,
         Filter::Opacity { .. } | Filter::Unlit { color: None } => Writes::Factor,
         Filter::Unlit { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Surface(BASE_COLOR),
         Filter::Material { color, metallic, roughness, emissive } => Writes::Surface(

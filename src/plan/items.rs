@@ -1,6 +1,8 @@
 //! What can be drawn, and what each lens means to it.
 
-use super::{Lens, LensSet};
+use super::{Lens, LensSet, Rule, instances};
+use glam::DVec3;
+
 use crate::InputError;
 use crate::scene::{Aabb, Model, Scene};
 use crate::spec::{At, By, Filter, LensSpec, Matches, Pattern, ShowWhat, Spec};
@@ -30,6 +32,8 @@ pub struct Item {
     pub triangles: u32,
     /// World space, tight.
     pub bounds: Aabb,
+    /// The centre of the tight world bounds of its node's whole mesh.
+    pub center: DVec3,
     /// Its material may be less than opaque.
     pub translucent: bool,
     /// The lenses that apply to it by `only` and `except`.
@@ -40,11 +44,30 @@ pub struct Item {
     pub shown_by: LensSet,
     /// Lenses that take it away where they act: they erase it or show something else.
     pub removed_by: LensSet,
+    /// Lenses that move it where they act.
+    pub movers: LensSet,
 }
 
 impl Item {
     pub fn is_alternate(&self) -> bool {
         self.content != 0
+    }
+
+    /// The lenses that may move it to be seen elsewhere: an alternate only those from the first that shows it upwards.
+    pub(super) fn moved_by(&self, lenses: &[Lens]) -> LensSet {
+        let applies = |rank: &usize| {
+            let there = lenses[*rank].by == By::Pixel || self.object.contains(*rank);
+            there && (self.shown_by.contains(*rank) || (self.scope.contains(*rank) && !self.removed_by.contains(*rank)))
+        };
+        let lowest = if self.is_alternate() { self.shown_by.iter().next().unwrap_or(usize::MAX) } else { 0 };
+        self.movers.iter().filter(|rank| *rank >= lowest).filter(applies).collect()
+    }
+
+    /// What name patterns are held against.
+    pub(super) fn subject<'a>(&self, scene: &'a Scene) -> Subject<'a> {
+        let model = &scene.models[self.model];
+        let material = &model.materials[self.material - scene.material_base[self.model]].name;
+        Subject { model, node: self.node, material }
     }
 }
 
@@ -53,6 +76,7 @@ pub(super) fn collect(
     scene: &Scene,
     order: &[usize],
     lenses: &[Lens],
+    rules: &[Rule],
 ) -> Result<(Vec<Content>, Vec<Item>), InputError> {
     let contents = contents(spec, scene)?;
     let mut items: Vec<Item> = Vec::new();
@@ -80,19 +104,27 @@ pub(super) fn collect(
                     first_triangle: first_triangle as u32,
                     triangles: primitive.triangles.len() as u32,
                     bounds: primitive.bounds(&model.nodes[node].world_from_local),
+                    center,
                     translucent: scene.materials[material].may_be_translucent(),
                     scope: LensSet::EMPTY,
                     object: LensSet::EMPTY,
                     shown_by: LensSet::EMPTY,
                     removed_by: LensSet::EMPTY,
+                    movers: LensSet::EMPTY,
                 };
-                let subject = Subject { model, node, material: &model.materials[primitive.material].name };
+                let subject = item.subject(scene);
                 for (rank, lens) in lenses.iter().enumerate() {
                     let lens_spec = &spec.lenses[order[rank]];
-                    relate(&mut item, rank, lens, lens_spec, &subject, &contents, scene);
+                    if in_scope(lens_spec, &subject) {
+                        item.scope.insert(rank);
+                    }
+                    relate(&mut item, rank, &lens.filters, &subject, &contents, scene);
                     if lens.by == By::Object && lens.volume.contains(center) {
                         item.object.insert(rank);
                     }
+                }
+                for (number, rule) in rules.iter().enumerate() {
+                    relate(&mut item, lenses.len() + number, &rule.filters, &subject, &contents, scene);
                 }
                 first_triangle += u64::from(item.triangles);
                 items.push(item);
@@ -109,20 +141,16 @@ pub(super) fn collect(
     Ok((contents, items))
 }
 
-/// Sets what one lens means to one item.
-fn relate(
-    item: &mut Item,
-    rank: usize,
-    lens: &Lens,
-    spec: &LensSpec,
-    subject: &Subject,
-    contents: &[Content],
-    scene: &Scene,
-) {
-    if (spec.only.is_empty() || subject.is_in(&spec.only)) && !subject.is_in(&spec.except) {
-        item.scope.insert(rank);
+fn in_scope(lens: &LensSpec, subject: &Subject) -> bool {
+    (lens.only.is_empty() || subject.is_in(&lens.only)) && !subject.is_in(&lens.except)
+}
+
+/// Sets what the filters of one lens or rule mean to one item.
+fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, contents: &[Content], scene: &Scene) {
+    if instances::moves(filters, subject) {
+        item.movers.insert(rank);
     }
-    let last_show = lens.filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
+    let last_show = filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
     let erases = |filters: &[Filter]| {
         filters.iter().any(|f| match f {
             Filter::Erase { nodes, materials } => {
@@ -132,14 +160,14 @@ fn relate(
         })
     };
     let Some(show) = last_show else {
-        if erases(&lens.filters) {
+        if erases(filters) {
             item.removed_by.insert(rank);
         }
         return;
     };
-    let Filter::Show(what) = &lens.filters[show] else { return };
+    let Filter::Show(what) = &filters[show] else { return };
     let brings_in = contents.iter().position(|c| *c == content(what, scene)) == Some(item.content);
-    if brings_in && !erases(&lens.filters[show + 1..]) {
+    if brings_in && !erases(&filters[show + 1..]) {
         item.shown_by.insert(rank);
     }
     // Whatever else is in the lens's scope makes room for what it shows.
@@ -162,12 +190,14 @@ fn content(what: &ShowWhat, scene: &Scene) -> Content {
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
     let mut contents = vec![Content { model: 0, nodes: None }];
     let mut shown: Vec<Content> = Vec::new();
-    for (lens, filter) in spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(move |filter| (lens, filter))) {
+    let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
+    let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
+    for (enabled, filter) in of_lenses.chain(of_rules) {
         let Filter::Show(what) = &filter.value else { continue };
         if let ShowWhat::Nodes(patterns) = what {
             check_shown_nodes(spec, &scene.models[0], patterns)?;
         }
-        if lens.enabled {
+        if enabled {
             shown.push(content(what, scene));
         }
     }
@@ -185,19 +215,10 @@ fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Re
         if !(0..model.nodes.len()).any(|n| model.node_matches(n, &pattern.value)) {
             let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
             return Err(InputError::at(&spec.source, pattern.span.clone(), message)
-                .help(nearest_node_name(model, &pattern.value.0)));
+                .help(model.nearest_node_name(&pattern.value.0)));
         }
     }
     Ok(())
-}
-
-/// What to write instead of a node name that is not there.
-pub(super) fn nearest_node_name(model: &Model, name: &str) -> String {
-    let names = model.nodes.iter().map(|n| n.name.as_str()).filter(|n| !n.is_empty());
-    match names.map(|n| (strsim::jaro_winkler(n, name), n)).max_by(|a, b| a.0.total_cmp(&b.0)) {
-        Some((score, nearest)) if score > 0.8 => format!("did you mean `{nearest}`?"),
-        _ => "`lenspeel info` lists the nodes of a model".into(),
-    }
 }
 
 fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {
@@ -209,7 +230,7 @@ fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: us
 }
 
 /// What name patterns are held against.
-struct Subject<'a> {
+pub(super) struct Subject<'a> {
     model: &'a Model,
     node: usize,
     material: &'a str,
@@ -220,7 +241,7 @@ impl Subject<'_> {
         self.is_any(&matches.nodes, &matches.materials)
     }
 
-    fn is_any(&self, nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> bool {
+    pub(super) fn is_any(&self, nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> bool {
         nodes.iter().any(|p| self.model.node_matches(self.node, &p.value))
             || materials.iter().any(|p| p.value.matches(self.material))
     }

@@ -18,6 +18,8 @@ pub struct Lens {
     /// Position in the file.
     pub index: usize,
     pub volume: Volume,
+    /// World from the shape's space.
+    pub world_from_shape: DAffine3,
     /// Pixels outside which its volume is not.
     pub rect: PixelRect,
     pub by: By,
@@ -30,6 +32,10 @@ pub struct Lens {
     pub ops: Range<usize>,
     /// Whether its filters may make a fragment less than opaque.
     pub translucent: bool,
+    /// Whether some filter moves content.
+    pub moves: bool,
+    /// Width over which the appearance filters fade in from the boundary, scene units; 0: a sharp one.
+    pub soft: f64,
     pub glass: Option<GlassRecord>,
 }
 
@@ -59,8 +65,14 @@ impl From<Glass> for GlassRecord {
     }
 }
 
+/// A lens's volume and its shape's space.
+pub(super) struct Placed {
+    pub volume: Volume,
+    pub world_from_shape: DAffine3,
+}
+
 /// The volume of every lens of the file, disabled ones checked like the others but left out.
-pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Option<Volume>>, InputError> {
+pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Option<Placed>>, InputError> {
     // The reader has counted them with a better place to point at; a spec may also be built in code.
     let enabled = spec.lenses.iter().filter(|l| l.enabled).count();
     if enabled > MAX_LENSES {
@@ -76,18 +88,18 @@ pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Opt
         .collect()
 }
 
-fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Volume, InputError> {
+fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Placed, InputError> {
     let attach = attach_space(spec, lens, scene, view)?;
     let placement = Placement { attach, translation: lens.translation, rotation: lens.rotation, scale: lens.scale };
-    let volume = build_volume(&lens.shape.value, &placement, view).map_err(|reason| {
-        let message = format!("the shape of lens `{}` has no volume: {reason}", lens.name.value);
-        InputError::at(&spec.source, lens.shape.span.clone(), message)
+    let volume = build_volume(&lens.shape, &placement, view, &scene.lens_meshes).map_err(|reason| {
+        let message = format!("the shape of lens `{}` has no volume: {}", lens.name.value, reason.value);
+        InputError::at(&spec.source, reason.span, message)
     })?;
-    if !(volume.world_from_local.is_finite() && volume.local_from_world.is_finite()) {
+    if !volume.parts.iter().all(|part| part.world_from_local.is_finite() && part.local_from_world.is_finite()) {
         let message = format!("the numbers of lens `{}` are too large or too small to compute with", lens.name.value);
         return Err(InputError::at(&spec.source, lens.shape.span.clone(), message));
     }
-    Ok(volume)
+    Ok(Placed { volume, world_from_shape: placement.world_from_shape() })
 }
 
 fn attach_space(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<DAffine3, InputError> {
@@ -96,34 +108,23 @@ fn attach_space(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Res
         Attach::Scene => Ok(DAffine3::IDENTITY),
         Attach::Camera => Ok(view.world_from_camera()),
         Attach::Node(name) => {
-            let found: Vec<usize> = (0..model.nodes.len()).filter(|i| model.nodes[*i].name == *name).collect();
-            let error = |message: String, help: String| {
+            let node = model.node_named(name).map_err(|(message, help)| {
                 InputError::at(&spec.source, lens.attach.span.clone(), message).help(help)
-            };
-            match found[..] {
-                [node] => Ok(model.nodes[node].world_from_local),
-                [] => Err(error(
-                    format!("`{}` has no node named `{name}`", model.name),
-                    super::items::nearest_node_name(model, name),
-                )),
-                _ => Err(error(
-                    format!("{} nodes of `{}` are named `{name}`", found.len(), model.name),
-                    "a lens is attached to one node; give that node a name of its own".into(),
-                )),
-            }
+            })?;
+            Ok(model.nodes[node].world_from_local)
         }
     }
 }
 
 /// What orders each lens of the file.
-pub(super) fn ranks(spec: &Spec, volumes: &[Option<Volume>], view: &View) -> Vec<Rank> {
+pub(super) fn ranks(spec: &Spec, volumes: &[Option<Placed>], view: &View) -> Vec<Rank> {
     spec.lenses
         .iter()
         .zip(volumes)
         .map(|(lens, volume)| Rank {
             enabled: lens.enabled,
             priority: lens.priority,
-            flat: volume.as_ref().filter(|v| v.is_flat).map(|v| match view.projection {
+            flat: volume.as_ref().map(|p| &p.volume).filter(|v| v.is_flat()).map(|v| match view.projection {
                 Projection::Perspective { .. } => v.center.distance(view.eye),
                 Projection::Orthographic { .. } => view.depth(v.center),
             }),
@@ -137,38 +138,34 @@ pub(super) fn rank_lenses(
     scene: &Scene,
     graph: &PriorityGraph,
     order: &[usize],
-    volumes: &[Option<Volume>],
+    volumes: &[Option<Placed>],
     view: &View,
 ) -> (Vec<Lens>, Vec<Op>) {
     let mut ops = Vec::new();
     let mut lenses: Vec<Lens> = Vec::new();
     for (rank, &index) in order.iter().enumerate() {
-        let (lens, Some(volume)) = (&spec.lenses[index], &volumes[index]) else { continue };
-        let first = ops.len();
-        ops.extend(lens.filters.iter().filter_map(|f| Op::from_filter(&f.value, filter_texture(&f.value, scene))));
+        let (lens, Some(placed)) = (&spec.lenses[index], &volumes[index]) else { continue };
+        let filters: Vec<Filter> = lens.filters.iter().map(|f| f.value.clone()).collect();
+        let own = Op::append(&filters, scene, &mut ops);
         let overrides = lens.overlap == OverlapMode::Override;
         lenses.push(Lens {
             name: lens.name.value.clone(),
             index,
-            rect: volume.pixel_rect(view),
-            volume: volume.clone(),
+            rect: placed.volume.pixel_rect(view),
+            volume: placed.volume.clone(),
+            world_from_shape: placed.world_from_shape,
             by: lens.by,
             hides: if overrides { LensSet::below(rank) } else { hidden_by(graph, order, index) },
             overrides,
-            filters: lens.filters.iter().map(|f| f.value.clone()).collect(),
-            translucent: ops[first..].iter().any(Op::may_be_translucent),
-            ops: first..ops.len(),
+            translucent: ops[own.clone()].iter().any(Op::may_be_translucent),
+            moves: filters.iter().any(Filter::moves),
+            soft: lens.soft,
+            filters,
+            ops: own,
             glass: lens.glass.map(GlassRecord::from),
         });
     }
     (lenses, ops)
-}
-
-fn filter_texture(filter: &Filter, scene: &Scene) -> u32 {
-    match filter {
-        Filter::Texture { file, .. } => scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
-        _ => 0,
-    }
 }
 
 /// Ranks of the lenses that a lens of the file names in `hides`.

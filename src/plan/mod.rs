@@ -5,6 +5,7 @@
 mod account;
 mod camera;
 mod decide;
+mod instances;
 mod items;
 mod lenses;
 mod light;
@@ -12,6 +13,7 @@ mod op;
 mod order;
 mod reasons;
 mod regions;
+mod rules;
 mod walk;
 mod warnings;
 
@@ -20,9 +22,10 @@ use crate::scene::Scene;
 use crate::spec::{Backfaces, Spec};
 use crate::view::View;
 
-pub use crate::lens::{LensSet, MAX_LENSES};
+pub use crate::lens::{LensSet, MAX_LENSES, MAX_RULES};
 pub use account::{Account, Undecided};
 pub use decide::{Reason, commute};
+pub use instances::{Instance, Step};
 pub use items::{Content, Item};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
@@ -30,7 +33,8 @@ pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
 pub use reasons::Reasons;
 pub use regions::Region;
-pub use walk::{Verdict, survivors, walk};
+pub use rules::{Rule, Test};
+pub use walk::{Verdict, survivors};
 
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.
 #[derive(Debug, Clone)]
@@ -47,12 +51,16 @@ pub struct Plan {
     pub lenses: Vec<Lens>,
     /// The lenses that test every fragment (`by = "pixel"`).
     pub by_pixel: LensSet,
-    /// Appearance filters of all lenses; each lens has a range of them.
+    /// The overlap rules in the order of the file.
+    pub rules: Vec<Rule>,
+    /// Appearance filters of all lenses and rules; each has a range of them.
     pub ops: Vec<Op>,
     /// What can be drawn: the scene, then each content that some `show` names.
     pub contents: Vec<Content>,
     /// What is drawn, in the order that decides ties: by content, node, primitive.
     pub items: Vec<Item>,
+    /// Every way in which an item may be seen: all items in place, in their order, then those that lenses move.
+    pub instances: Vec<Instance>,
     /// The middle and the longest side of the scene's bounds, for projected textures.
     pub texture_space: TextureSpace,
     /// The lenses in the order of the file, disabled ones too, with the declared edges.
@@ -73,18 +81,16 @@ pub struct TextureSpace {
 impl Plan {
     /// Decides a spec over its opened scene. All that can be wrong with the two together is found here.
     pub fn new(spec: &Spec, scene: &Scene) -> Result<Self, InputError> {
-        if let Some(rule) = spec.overlaps.first() {
-            return Err(InputError::at(&spec.source, rule.when.span.clone(), "overlap rules are not built yet")
-                .help("give the lenses an order with `over`, `hides` or `overlap = \"override\"` instead"));
-        }
         let mut view = camera::place(spec, scene)?;
         let graph = PriorityGraph::new(spec)?;
         let volumes = lenses::volumes(spec, scene, &view)?;
-        camera::fit_depths(&mut view, spec, scene, &volumes)?;
         let ranks = lenses::ranks(spec, &volumes, &view);
         let order = graph.total_order(&ranks);
-        let (lenses, ops) = lenses::rank_lenses(spec, scene, &graph, &order, &volumes, &view);
-        let (contents, items) = items::collect(spec, scene, &order, &lenses)?;
+        camera::fit_depths(&mut view, spec, scene, &volumes, &order)?;
+        let (lenses, mut ops) = lenses::rank_lenses(spec, scene, &graph, &order, &volumes, &view);
+        let rules = rules::collect(spec, scene, &lenses, &mut ops);
+        let (contents, items) = items::collect(spec, scene, &order, &lenses, &rules)?;
+        let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
             samples: spec.image.samples,
             background: spec.image.background.map_or([0.0; 4], |c| c.to_linear()),
@@ -94,23 +100,15 @@ impl Plan {
             texture_space: texture_space(scene),
             view,
             lenses,
+            rules,
             ops,
             contents,
             items,
+            instances,
             graph,
             ranks,
             warnings: warnings::collect(spec, scene),
         })
-    }
-
-    /// What the lenses do at a point of an item: `inside` are the lenses whose volume holds the point.
-    pub fn walk(&self, item: &Item, inside: LensSet) -> Verdict {
-        walk(&self.lenses, item, inside & self.by_pixel)
-    }
-
-    /// The appearance filters of a stack, lowest first.
-    pub fn stack_ops(&self, stack: LensSet) -> impl Iterator<Item = &Op> {
-        stack.iter().flat_map(|rank| &self.ops[self.lenses[rank].ops.clone()])
     }
 
     /// Names of a set's lenses, sorted.

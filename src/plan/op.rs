@@ -1,6 +1,7 @@
 //! Filters as both backends run them: one record each, as in `shaders/appearance/surface.wgsl`.
 
 use crate::appearance as wgsl;
+use crate::scene::Scene;
 use crate::spec::{Color, Filter, UvMapping};
 
 /// One appearance filter with its parameters; the layout of WGSL's `Op`.
@@ -12,7 +13,8 @@ pub struct Op {
     /// Into the plan's filter textures.
     pub texture: u32,
     pub flags: u32,
-    pub pad: u32,
+    /// Not 0: it stands before a filter of its lens that moves content, so it acts where that takes it from.
+    pub inner: u32,
     pub a: [f32; 4],
     pub b: [f32; 4],
     pub c: [f32; 4],
@@ -20,7 +22,18 @@ pub struct Op {
 
 impl Op {
     fn new(kind: naga_rust_rt::Scalar<u32>, a: [f32; 4], b: [f32; 4]) -> Self {
-        Self { kind: kind.0, texture: 0, flags: 0, pad: 0, a, b, c: [0.0; 4] }
+        Self { kind: kind.0, texture: 0, flags: 0, inner: 0, a, b, c: [0.0; 4] }
+    }
+
+    /// Appends the records of a list's appearance filters; their places.
+    pub fn append(filters: &[Filter], scene: &Scene, ops: &mut Vec<Self>) -> std::ops::Range<usize> {
+        let first = ops.len();
+        let last_mover = filters.iter().rposition(Filter::moves);
+        for (place, filter) in filters.iter().enumerate() {
+            let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
+            ops.extend(Self::from_filter(filter, filter_texture(filter, scene)).map(|op| Self { inner, ..op }));
+        }
+        first..ops.len()
     }
 
     /// The record of an appearance filter; `None` for content filters, which act before any surface exists.
@@ -29,7 +42,7 @@ impl Op {
         let none = [0.0; 4];
         let amount = |a: f32| [a, 0.0, 0.0, 0.0];
         Some(match filter {
-            Filter::Erase { .. } | Filter::Show(_) => return None,
+            Filter::Erase { .. } | Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => return None,
             Filter::Opacity { value } => Self::new(wgsl::OP_OPACITY, amount(*value), none),
             Filter::Tint { color, amount: a } => Self::new(wgsl::OP_TINT, color.to_linear(), amount(*a)),
             Filter::Grayscale { amount: a } => Self::new(wgsl::OP_GRAYSCALE, none, amount(*a)),
@@ -83,6 +96,13 @@ impl Op {
     }
 }
 
+fn filter_texture(filter: &Filter, scene: &Scene) -> u32 {
+    match filter {
+        Filter::Texture { file, .. } => scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
+        _ => 0,
+    }
+}
+
 fn flag(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
@@ -104,6 +124,8 @@ pub fn filter_name(filter: &Filter) -> &'static str {
         Filter::Wireframe { .. } => "wireframe",
         Filter::Erase { .. } => "erase",
         Filter::Show(_) => "show",
+        Filter::Magnify { .. } => "magnify",
+        Filter::Displace { .. } => "displace",
         Filter::Opacity { .. } => "opacity",
         Filter::Tint { .. } => "tint",
         Filter::Grayscale { .. } => "grayscale",

@@ -4,25 +4,36 @@
 //! Lines run along three axes through a grid of points in every lens and along view rays through its pixels; the
 //! set is deterministic. A region is missed only if it slips between all of them.
 
-use std::collections::BTreeMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
-use super::{Item, LensSet, Plan, survivors};
+use super::{Instance, LensSet, Plan, Step};
 use crate::lens::RayLayers;
 use crate::scene::Aabb;
 use crate::view::Ray;
 
-/// A region that occurs: which lenses, and which of them act.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A region that occurs: which lenses, and which of them act, or which rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Region {
     pub set: LensSet,
     pub stack: LensSet,
 }
 
 impl Region {
+    /// Outside all lenses, where no rule acts.
+    pub const PLAIN: Region = Region { set: LensSet::EMPTY, stack: LensSet::EMPTY };
+
+    /// The overlap rule that acts here.
+    pub fn rule(&self, plan: &Plan) -> Option<usize> {
+        self.stack.top().and_then(|rank| plan.rule_of(rank))
+    }
+
     /// The lenses of the set that are hidden here, each with the lowest survivor that hides it.
     pub fn hidden(&self, plan: &Plan) -> Vec<(usize, usize)> {
+        if self.rule(plan).is_some() {
+            return Vec::new();
+        }
         let by = |rank: usize| self.stack.iter().find(|above| plan.lenses[*above].hides.contains(rank));
         self.set.minus(self.stack).iter().filter_map(|rank| Some((rank, by(rank)?))).collect()
     }
@@ -32,36 +43,85 @@ impl Region {
 const GRID: usize = 24;
 const LINES: usize = 40_000;
 
-/// How lenses are limited to items: those that apply, and those that hold the whole object.
-type Class = (LensSet, LensSet);
+/// Instances to which lenses mean the same.
+struct Class {
+    /// The lenses that apply, and those that hold the whole object.
+    scope: LensSet,
+    object: LensSet,
+    /// One of them, where lenses move it.
+    moved: Option<usize>,
+    bounds: Vec<Aabb>,
+}
 
 impl Plan {
     /// The regions that occur in space, sorted by their lens names; the plain scene is not among them.
     pub fn regions(&self) -> Vec<Region> {
         let classes = self.classes();
-        let mut found: BTreeMap<LensSet, ()> = BTreeMap::new();
+        // Where all lenses apply to all items, no item need be there: a region is a part of space.
+        let anywhere = classes.iter().filter(|class| class.moved.is_none()).count() <= 1;
+        let mut sets: HashSet<LensSet> = HashSet::new();
+        let mut found: HashSet<Region> = HashSet::new();
         let mut layers = RayLayers::default();
         for (ray, from, to) in self.probes() {
             let volumes = self.by_pixel.iter().map(|rank| (rank, &self.lenses[rank].volume));
             layers.find(volumes, &ray, from, to);
-            for (i, start) in layers.starts.iter().enumerate() {
-                let end = layers.starts.get(i + 1).map_or(to, |next| next.depth);
-                self.note(start.set, &ray, (start.depth, end), &classes, &mut found);
+            for class in &classes {
+                match class.moved {
+                    None => class.note(&layers, &ray, to, anywhere, &mut sets),
+                    Some(instance) => {
+                        let near = |from, to| anywhere || class.bounds.iter().any(|b| crosses(b, &ray, from, to));
+                        self.note_moved(&self.instances[instance], &layers, &ray, to, &near, &mut found);
+                    }
+                }
             }
         }
         for item in &self.items {
-            found.insert(item.object & item.scope, ());
+            sets.insert(item.object & item.scope);
         }
-        found.remove(&LensSet::EMPTY);
-        let mut regions: Vec<Region> =
-            found.into_keys().map(|set| Region { set, stack: survivors(&self.lenses, set) }).collect();
+        // Outside all lenses a rule may act, too.
+        sets.insert(LensSet::EMPTY);
+        found.extend(sets.into_iter().map(|set| Region { set, stack: self.stack_of(set) }));
+        found.remove(&Region::PLAIN);
+        let mut regions: Vec<Region> = found.into_iter().collect();
         let places = self.places_by_name();
         regions.sort_by_cached_key(|region| {
             let mut names: Vec<usize> = region.set.iter().map(|rank| places[rank]).collect();
             names.sort_unstable();
-            names
+            (names, region.stack)
         });
         regions
+    }
+
+    /// Notes what an instance meets along a line where lenses move it.
+    fn note_moved(
+        &self,
+        instance: &Instance,
+        here: &RayLayers,
+        ray: &Ray,
+        to: f64,
+        near: &dyn Fn(f64, f64) -> bool,
+        found: &mut HashSet<Region>,
+    ) {
+        let from = here.starts[0].depth;
+        let below = |step: &Step| {
+            let mut layers = RayLayers::default();
+            let ranks = (self.by_pixel & LensSet::below(step.rank)).iter();
+            let volumes = ranks.map(|rank| (rank, &self.lenses[rank].volume));
+            layers.find(volumes, &ray.moved(&step.source_from_shown), from, to);
+            layers
+        };
+        let levels: Vec<RayLayers> = instance.steps.iter().map(below).collect();
+        let all = || std::iter::once(here).chain(&levels);
+        let mut cuts: Vec<f64> = all().flat_map(|layers| layers.starts.iter().map(|start| start.depth)).collect();
+        cuts.push(to);
+        cuts.sort_unstable_by(f64::total_cmp);
+        for pair in cuts.windows(2).filter(|pair| pair[0] < pair[1] && near(pair[0], pair[1])) {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            let verdict = self.walk(instance, |step| all().nth(step).map_or(LensSet::EMPTY, |l| l.set_at(middle)));
+            if verdict.here {
+                found.insert(Region { set: verdict.set, stack: verdict.stack });
+            }
+        }
     }
 
     /// For each rank the place of its lens among the sorted names.
@@ -73,35 +133,31 @@ impl Plan {
         places
     }
 
-    /// The distinct ways in which lenses are limited to items, with the bounds of the items of each.
-    fn classes(&self) -> BTreeMap<Class, Vec<Aabb>> {
-        let mut classes: BTreeMap<Class, Vec<Aabb>> = BTreeMap::new();
-        let class = |item: &Item| (item.scope | item.shown_by, item.object & item.scope);
-        self.items.iter().for_each(|item| classes.entry(class(item)).or_default().push(item.bounds));
+    /// The distinct ways in which lenses are limited to what is drawn and move it.
+    fn classes(&self) -> Vec<Class> {
+        let mut classes: Vec<Class> = Vec::new();
+        let mut known: HashMap<(LensSet, LensSet, Option<usize>), usize> = HashMap::new();
+        for (index, instance) in self.instances.iter().enumerate() {
+            let item = &self.items[instance.item];
+            let (scope, object) = (item.scope | item.shown_by, item.object & item.scope);
+            let moved = (!item.movers.is_empty()).then(|| {
+                let same = |other: &&Class| {
+                    let moved = other.moved.map(|moved| &self.instances[moved]);
+                    other.scope == scope && other.object == object && moved.is_some_and(|m| m.steps == instance.steps)
+                };
+                classes.iter().find(same).and_then(|class| class.moved).unwrap_or(index)
+            });
+            let place = *known.entry((scope, object, moved)).or_insert_with(|| {
+                classes.push(Class { scope, object, moved, bounds: Vec::new() });
+                classes.len() - 1
+            });
+            classes[place].bounds.push(instance.bounds);
+        }
+        if classes.is_empty() {
+            let scope = LensSet::below(self.lenses.len());
+            classes.push(Class { scope, object: LensSet::EMPTY, moved: None, bounds: Vec::new() });
+        }
         classes
-    }
-
-    /// Notes what a stretch of a line means to each class. Where all lenses apply to all items, no item need be there:
-    /// a region is a part of space. Else one of the class must be near the stretch.
-    fn note(
-        &self,
-        set: LensSet,
-        ray: &Ray,
-        (from, to): (f64, f64),
-        classes: &BTreeMap<Class, Vec<Aabb>>,
-        found: &mut BTreeMap<LensSet, ()>,
-    ) {
-        if classes.len() <= 1 {
-            let (scope, object) = classes.keys().next().copied().unwrap_or((set, LensSet::EMPTY));
-            found.insert((set & scope) | object, ());
-            return;
-        }
-        for ((scope, object), bounds) in classes {
-            let here = (set & *scope) | *object;
-            if !found.contains_key(&here) && bounds.iter().any(|b| crosses(b, ray, from, to)) {
-                found.insert(here, ());
-            }
-        }
     }
 
     /// Lines to look along, each with the stretch that counts.
@@ -111,8 +167,9 @@ impl Plan {
         let mut probes = Vec::new();
         for rank in self.by_pixel.iter() {
             let lens = &self.lenses[rank];
-            if !lens.volume.is_flat {
-                axis_probes(&lens.volume.bounds(), grid, &mut probes);
+            let bounds = lens.volume.bounds();
+            if !bounds.is_empty() && bounds.size().is_finite() {
+                axis_probes(&bounds, grid, &mut probes);
             }
             let (min, max) = (lens.rect.min.map(f64::from), lens.rect.max.map(f64::from));
             for (u, v) in grid_points(grid) {
@@ -121,6 +178,22 @@ impl Plan {
             }
         }
         probes
+    }
+}
+
+impl Class {
+    /// Notes what lies along a line where no lens moves anything. One of the class must be near, unless `anywhere`.
+    fn note(&self, layers: &RayLayers, ray: &Ray, to: f64, anywhere: bool, sets: &mut HashSet<LensSet>) {
+        for (i, start) in layers.starts.iter().enumerate() {
+            let here = (start.set & self.scope) | self.object;
+            if sets.contains(&here) {
+                continue;
+            }
+            let end = layers.starts.get(i + 1).map_or(to, |next| next.depth);
+            if anywhere || self.bounds.iter().any(|b| crosses(b, ray, start.depth, end)) {
+                sets.insert(here);
+            }
+        }
     }
 }
 

@@ -1,52 +1,113 @@
 //! Which lenses act on a fragment: sections 3 to 5 of SEMANTICS for one point.
 
-use super::{Item, Lens, LensSet};
+use super::{Instance, Item, Lens, LensSet, Plan};
 
 /// What the walk down the order found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Verdict {
-    /// The lenses around the fragment that apply to it, hidden ones included: S.
+    /// The lenses around the fragment that apply to it, hidden ones included: S. Below a lens that moves content,
+    /// those around the moved point.
     pub set: LensSet,
-    /// Those that act, a subset of `set`: the stack, lowest rank first.
+    /// Those that act, a subset of `set`, lowest rank first; or the one overlap rule that acts in their place.
     pub stack: LensSet,
-    /// Neither erased nor replaced by other content, and, for an alternate, shown by some lens.
+    /// The lenses that move content take a fragment at this point just where the instance has it from.
+    pub here: bool,
+    /// It is seen: neither erased nor replaced nor moved elsewhere, and, for an alternate, shown.
     pub displayed: bool,
+    /// Who takes it away from here: what erases it, shows something else, or moves it elsewhere. An alternate that
+    /// no lens shows is not taken away, it is not there.
+    pub removed_by: LensSet,
 }
 
-/// Walks from the top of the order down through the lenses that contain the point.
-///
-/// `inside`: the lenses (by pixel) whose volume holds the point. Content filters act on the base scene at
-/// every level; on an alternate only above the lens that shows it, for what lies lower does not reach it.
-pub fn walk(lenses: &[Lens], item: &Item, inside: LensSet) -> Verdict {
-    let mut verdict = Verdict { set: LensSet::EMPTY, stack: LensSet::EMPTY, displayed: true };
-    let mut hidden = LensSet::EMPTY;
-    // Whether the lens that brought this content in has been passed.
-    let mut shown = false;
-    let mut rest = (inside | item.object) & (item.scope | item.shown_by);
-    while let Some(rank) = rest.top() {
-        rest.remove(rank);
-        let acts = !hidden.contains(rank);
-        let shows = acts && !shown && item.shown_by.contains(rank);
-        if !shows && !item.scope.contains(rank) {
-            continue;
+impl Plan {
+    /// What the lenses do at a point where an instance is met.
+    ///
+    /// `around(n)`: the lenses (by pixel) whose volume holds the point after the first n steps of the instance; 0 is
+    /// the shown point itself. Content filters act on the base scene at every level; on an alternate only from the
+    /// lens that shows it upwards, for what lies lower does not reach it.
+    pub fn walk(&self, instance: &Instance, mut around: impl FnMut(usize) -> LensSet) -> Verdict {
+        let item = &self.items[instance.item];
+        let here = around(0);
+        let containing = self.applying(item, here) & item.scope;
+        if let Some(rule) = self.rule_for(containing) {
+            return rule_verdict(item, instance, self.rule_rank(rule), containing);
         }
-        verdict.set.insert(rank);
-        if !acts {
-            continue;
+        let nothing = LensSet::EMPTY;
+        let mut verdict = Verdict { set: nothing, stack: nothing, here: true, displayed: true, removed_by: nothing };
+        let mut hidden = LensSet::EMPTY;
+        // Whether the lens that brought this content in has been passed.
+        let mut shown = false;
+        let mut steps = 0;
+        let mut rest = self.applying(item, here);
+        while let Some(rank) = rest.top() {
+            rest.remove(rank);
+            let acts = !hidden.contains(rank);
+            let shows = acts && !shown && item.shown_by.contains(rank);
+            if !shows && !item.scope.contains(rank) {
+                continue;
+            }
+            verdict.set.insert(rank);
+            if !acts {
+                continue;
+            }
+            verdict.stack.insert(rank);
+            hidden = hidden | self.lenses[rank].hides;
+            if !shown && item.movers.contains(rank) {
+                if instance.steps.get(steps).is_some_and(|step| step.rank == rank) {
+                    steps += 1;
+                    rest = self.applying(item, around(steps)) & LensSet::below(rank);
+                } else {
+                    verdict.here = false;
+                    verdict.removed_by.insert(rank);
+                }
+            }
+            if shows {
+                shown = true;
+            } else if !shown && item.removed_by.contains(rank) {
+                verdict.removed_by.insert(rank);
+            }
         }
-        verdict.stack.insert(rank);
-        hidden = hidden | lenses[rank].hides;
-        if shows {
-            shown = true;
-        } else if !shown && item.removed_by.contains(rank) {
-            verdict.displayed = false;
+        verdict.here &= steps == instance.steps.len();
+        verdict.displayed = verdict.here && verdict.removed_by.is_empty();
+        if item.is_alternate() && !shown {
+            (verdict.displayed, verdict.removed_by) = (false, LensSet::EMPTY);
+        }
+        verdict
+    }
+
+    /// The lenses that may mean something to an item, of those around a point.
+    fn applying(&self, item: &Item, around: LensSet) -> LensSet {
+        ((around & self.by_pixel) | item.object) & (item.scope | item.shown_by)
+    }
+
+    /// The last rule that holds where a set of lenses contains the point (SEMANTICS 4).
+    pub fn rule_for(&self, set: LensSet) -> Option<usize> {
+        self.rules.iter().rposition(|rule| rule.when.holds(set))
+    }
+
+    /// Who acts on a surface inside a set of lenses, without regard to content: a rule, or the survivors.
+    pub fn stack_of(&self, set: LensSet) -> LensSet {
+        match self.rule_for(set) {
+            Some(rule) => LensSet::only(self.rule_rank(rule)),
+            None => survivors(&self.lenses, set),
         }
     }
-    verdict.displayed &= shown || !item.is_alternate();
-    verdict
 }
 
-/// The survivors of a set by itself, without regard to content.
+/// A rule's filters are the whole stack, on the plain scene: what lenses move or show is not there.
+fn rule_verdict(item: &Item, instance: &Instance, rank: usize, set: LensSet) -> Verdict {
+    let shown = item.shown_by.contains(rank);
+    let gone = !shown && item.removed_by.contains(rank);
+    Verdict {
+        set,
+        stack: LensSet::only(rank),
+        here: !instance.is_moved(),
+        displayed: !instance.is_moved() && (shown || (!gone && !item.is_alternate())),
+        removed_by: if gone && !item.is_alternate() { LensSet::only(rank) } else { LensSet::EMPTY },
+    }
+}
+
+/// The survivors of a set by itself, without regard to content and rules.
 pub fn survivors(lenses: &[Lens], set: LensSet) -> LensSet {
     let mut stack = LensSet::EMPTY;
     let mut rest = set;

@@ -241,6 +241,8 @@ pub struct Aabb {
 impl Aabb {
     pub const EMPTY: Aabb = Aabb { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
+    pub const EVERYWHERE: Aabb = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+
     pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, p| Aabb { min: b.min.min(p), max: b.max.max(p) })
     }
@@ -251,6 +253,10 @@ impl Aabb {
 
     pub fn union(self, other: Self) -> Self {
         Aabb { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    pub fn intersection(self, other: Self) -> Self {
+        Aabb { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
     pub fn overlaps(&self, other: &Self) -> bool {
@@ -299,11 +305,6 @@ impl Model {
         images.sort_unstable();
         images.dedup();
         images
-    }
-
-    /// Whether the pattern matches the node's own name or any ancestor's.
-    pub fn node_matches(&self, node: usize, pattern: &crate::spec::Pattern) -> bool {
-        std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))
     }
 }
 

@@ -159,6 +159,8 @@ pub struct LensSpec {
     pub by: By,
     pub only: Matches,
     pub except: Matches,
+    /// Width over which the effect fades in from the boundary, scene units; 0: a sharp one.
+    pub soft: f64,
     pub glass: Option<Glass>,
 }
 
@@ -253,6 +255,45 @@ pub enum Shape {
         corners: Vec<[f64; 3]>,
         depth: Option<f64>,
     },
+    Mesh(MeshShape),
+    /// Lists have at least one entry; a list of one is that shape.
+    Union(Vec<At<Shape>>),
+    Intersection(Vec<At<Shape>>),
+    /// The first less the others.
+    Difference(Vec<At<Shape>>),
+}
+
+impl At<Shape> {
+    /// The shapes that are no compounds, in the order of the file; of such a shape, itself.
+    pub fn parts(&self) -> Vec<&At<Shape>> {
+        match &self.value {
+            Shape::Union(list) | Shape::Intersection(list) | Shape::Difference(list) => {
+                list.iter().flat_map(|shape| shape.parts()).collect()
+            }
+            _ => vec![self],
+        }
+    }
+}
+
+/// A mesh of a glTF file as a volume.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshShape {
+    /// Resolved against the spec file's folder.
+    pub file: At<PathBuf>,
+    /// With its descendants; `None`: all that the file's default scene shows.
+    pub node: Option<At<String>>,
+    pub convex: Convex,
+}
+
+/// What is made of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Convex {
+    /// It must be convex as it stands.
+    AsItStands,
+    /// The convex hull of its vertices.
+    Hull,
+    /// Any closed mesh, with its hollows and holes.
+    Decompose,
 }
 
 /// How a lens surface is drawn.
@@ -288,6 +329,18 @@ pub enum Filter {
         materials: Vec<At<Pattern>>,
     },
     Show(ShowWhat),
+    /// Enlarges about `center` (in the shape's space; `None`: the lens's centre).
+    Magnify {
+        factor: f64,
+        center: Option<[f64; 3]>,
+    },
+    /// Moves nodes that match (an empty list: everything) by `offset`, along the scene's axes, and by `explode` times
+    /// the vector from the lens's centre to the centre of the node's bounds.
+    Displace {
+        nodes: Vec<At<Pattern>>,
+        offset: [f64; 3],
+        explode: f64,
+    },
     Opacity {
         value: f32,
     },
@@ -319,6 +372,13 @@ pub enum Filter {
         scale: [f32; 2],
     },
     Normals,
+}
+
+impl Filter {
+    /// Whether it moves content (SEMANTICS 5.2).
+    pub fn moves(&self) -> bool {
+        matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
+    }
 }
 
 /// What `show` puts in place of the scene.

@@ -59,9 +59,8 @@ fn check_order(opened: &Opened, expected: &Expected) -> Result<(), String> {
 fn check_stacks(opened: &Opened, frame: &Frame, expected: &Expected) -> Result<(), String> {
     let aovs = frame.aovs.as_ref().ok_or("the picture has no AOVs")?;
     for region in RegionMap::new(&opened.plan, aovs).map_err(|e| e.to_string())?.regions {
-        let got: Vec<(String, String)> =
-            region.stack.into_iter().map(|(lens, filter)| (lens, filter.to_string())).collect();
-        if let Some(want) = expected.stacks.get(&region.set).filter(|want| **want != got) {
+        let got: Vec<serde_json::Value> = region.stack.iter().map(|entry| entry.json()).collect();
+        if let Some(want) = expected.stacks.get(&region.region.set).filter(|want| **want != got) {
             return Err(format!("the stack of {}: {want:?} is wanted, {got:?} is there", region.lenses.join(" + ")));
         }
     }

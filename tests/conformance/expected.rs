@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use lenspeel::frame::{Aovs, Frame};
-use lenspeel::plan::{LensSet, Plan};
+use lenspeel::frame::{self, Aovs, Frame};
+use lenspeel::plan::{LensSet, Plan, Region};
 use serde_json::Value;
 
 use crate::compare::{Reference, Rules};
-use crate::edges::{JUMP, Mask, STEP, changes, depth_jumps, either};
+use crate::edges::{JUMP, Mask, STEP, changes, depth_jumps, either, regions};
 use crate::npy;
 
 /// Bits of `doubt.png`.
@@ -20,8 +20,8 @@ const VISIBILITY: u8 = 8;
 /// Stands in `region.png` where nothing is.
 const NOTHING: u16 = u16::MAX;
 
-/// A lens and a filter each, lowest first.
-type Stack = Vec<(String, String)>;
+/// An entry of `region.json` each, lowest first.
+type Stack = Vec<Value>;
 
 pub struct Expected {
     pub reference: Reference,
@@ -36,7 +36,8 @@ impl Expected {
         let (size, ids) = gray16(&folder.join("region.png"))?;
         let table = Table::read(&folder.join("region.json"), plan)?;
         let aovs = Aovs {
-            sets: ids.iter().map(|id| table.set(*id)).collect::<Result<_, _>>()?,
+            regions: ids.iter().map(|id| table.place(*id)).collect::<Result<_, _>>()?,
+            table: table.regions.clone(),
             nodes: gray16(&folder.join("node.png"))?.1.into_iter().map(u32::from).collect(),
             depth: npy::read_f32(&folder.join("depth.npy"), size)?,
             normals: Vec::new(),
@@ -57,7 +58,7 @@ fn reference(frame: Frame, doubt: &[u8], known: &[u8]) -> Result<Reference, Stri
     if [doubt.len(), known.len(), aovs.nodes.len(), aovs.layers.len()].iter().any(|n| *n != frame.pixels.len()) {
         return Err("the expected maps have different sizes".into());
     }
-    let visible = either(&changes(frame.size, &aovs.sets), &changes(frame.size, &aovs.nodes));
+    let visible = either(&changes(frame.size, &regions(aovs)), &changes(frame.size, &aovs.nodes));
     let edges = either(&visible, &depth_jumps(frame.size, &aovs.depth, JUMP));
     let steps = either(&edges, &depth_jumps(frame.size, &aovs.depth, STEP));
     let exempt = |bits: u8| -> Mask { doubt.iter().map(|doubt| doubt & bits != 0).collect() };
@@ -66,6 +67,7 @@ fn reference(frame: Frame, doubt: &[u8], known: &[u8]) -> Result<Reference, Stri
     Ok(Reference {
         region: by_map(&edges, REGION | VISIBILITY),
         node: by_map(&edges, NODE | VISIBILITY),
+        stack: Rules { near_edge: edges.clone(), exempt: vec![true; doubt.len()] },
         layers: by_map(&changes(frame.size, &aovs.layers), LAYERS),
         depth: by_map(&steps, NODE | VISIBILITY),
         color: Rules {
@@ -78,31 +80,33 @@ fn reference(frame: Frame, doubt: &[u8], known: &[u8]) -> Result<Reference, Stri
 
 /// `region.json`.
 struct Table {
-    sets: HashMap<u16, LensSet>,
+    regions: Vec<Region>,
+    /// Ids to places in `regions`.
+    places: HashMap<u16, u32>,
     stacks: HashMap<LensSet, Stack>,
 }
 
 impl Table {
     fn read(path: &Path, plan: &Plan) -> Result<Self, String> {
-        let mut table = Self { sets: HashMap::from([(0, LensSet::EMPTY)]), stacks: HashMap::new() };
+        let mut table = Self { regions: vec![Region::PLAIN], places: HashMap::from([(0, 0)]), stacks: HashMap::new() };
         let value = json(path)?;
         for entry in value.as_array().ok_or("region.json is no list")? {
             let id = entry["id"].as_u64().and_then(|id| u16::try_from(id).ok()).ok_or("an entry without an id")?;
             let names = strings(&entry["lenses"])?;
             let set: LensSet = names.iter().map(|name| rank(plan, name)).collect::<Result<_, String>>()?;
-            table.sets.insert(id, set);
-            let parts = entry["stack"].as_array().ok_or("an entry without a stack")?;
-            let stack = parts.iter().map(|part| Ok((text(part, "lens")?, text(part, "filter")?)));
-            table.stacks.insert(set, stack.collect::<Result<Stack, String>>()?);
+            table.places.insert(id, table.regions.len() as u32);
+            // The stack is compared by its filters.
+            table.regions.push(Region { set, stack: LensSet::EMPTY });
+            table.stacks.insert(set, entry["stack"].as_array().ok_or("an entry without a stack")?.clone());
         }
         Ok(table)
     }
 
-    fn set(&self, id: u16) -> Result<Option<LensSet>, String> {
+    fn place(&self, id: u16) -> Result<u32, String> {
         if id == NOTHING {
-            return Ok(None);
+            return Ok(frame::NOTHING);
         }
-        self.sets.get(&id).map(|set| Some(*set)).ok_or_else(|| format!("region.json has no region {id}"))
+        self.places.get(&id).copied().ok_or_else(|| format!("region.json has no region {id}"))
     }
 }
 
@@ -113,10 +117,6 @@ fn rank(plan: &Plan, name: &str) -> Result<usize, String> {
 fn json(path: &Path) -> Result<Value, String> {
     let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
     serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-fn text(part: &Value, key: &str) -> Result<String, String> {
-    Ok(part[key].as_str().ok_or_else(|| format!("a part of a stack without its {key}"))?.to_string())
 }
 
 fn strings(value: &Value) -> Result<Vec<String>, String> {

@@ -19,7 +19,7 @@ pub fn agree(expected: &Frame, actual: &Frame) -> Result<(), String> {
     let normal = |i: usize| (0..3).any(|c| (a.normals[i][c] - b.normals[i][c]).abs() > 1e-2);
     let tallies = [
         ("colour", differing(count, color)),
-        ("region", differing(count, |i| a.sets[i] != b.sets[i])),
+        ("region", differing(count, |i| a.region(i) != b.region(i))),
         ("node", differing(count, |i| a.nodes[i] != b.nodes[i])),
         ("layers", differing(count, |i| a.layers[i] != b.layers[i])),
         ("depth", differing(count, depth)),

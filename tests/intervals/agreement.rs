@@ -53,7 +53,7 @@ fn along_rays(solid: &Solid, view: &View, random: &mut Random, tally: &mut Tally
         let aimed = view.project(solid.inner(random)).filter(|_| number % 3 > 0);
         let pixel = aimed.unwrap_or_else(|| glam::DVec2::new(random.between(0.0, w), random.between(0.0, h)));
         let ray = view.ray(pixel.x, pixel.y);
-        let closed = solid.volume.interval(&ray, view.near, view.far);
+        let closed = solid.interval(&ray, view.near, view.far);
         let with_mesh = Bounds { inner: by_mesh(solid, &ray), ..bounds(solid, view, &ray) };
         with_mesh.check(closed).map_err(|e| format!("ray {pixel}: {e}"))?;
         membership(solid, &ray, view).map_err(|e| format!("ray {pixel}: {e}"))?;
@@ -65,7 +65,7 @@ fn along_rays(solid: &Solid, view: &View, random: &mut Random, tally: &mut Tally
 /// A point of a ray is in the volume if and only if its depth is in the span.
 fn membership(solid: &Solid, ray: &lenspeel::view::Ray, view: &View) -> Result<(), String> {
     let (near, far) = (view.near, view.far);
-    let interval = solid.volume.interval(ray, near, far);
+    let interval = solid.interval(ray, near, far);
     for step in 0..16 {
         let depth = near + (far - near) * (f64::from(step) + 0.5) / 16.0;
         let margin = 1e-6 * (solid.size + depth.abs());
@@ -91,7 +91,7 @@ fn over_pixels(solid: &Solid, view: &View, tally: &mut Tally) -> Result<(), Stri
     for y in 0..view.size[1] {
         for x in 0..view.size[0] {
             let ray = view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let closed = solid.volume.interval(&ray, view.near, view.far);
+            let closed = solid.interval(&ray, view.near, view.far);
             let drawn = Bounds { inner: raster.bracket(x, y), ..bounds(solid, view, &ray) };
             drawn.check(closed).map_err(|e| format!("pixel {x},{y}: {e}"))?;
             tally.count(closed);
@@ -145,7 +145,7 @@ fn around_the_eye_every_ray_enters_at_near() {
             let Some((solid, view)) = stage(kind, Stand::Inside, &mut random) else { panic!("{kind} has an inside") };
             for pixel in 0..SIZE[0] {
                 let ray = view.ray(f64::from(pixel) + 0.5, 3.5);
-                let entry = solid.volume.interval(&ray, view.near, view.far).map(|i| i.entry);
+                let entry = solid.interval(&ray, view.near, view.far).map(|i| i.entry);
                 // An orthographic ray does not start at the eye.
                 assert!(entry == Some(view.near) || !view.is_perspective(), "{kind}: {entry:?}, near {}", view.near);
             }
@@ -163,7 +163,7 @@ fn a_shifted_or_swapped_interval_is_noticed() {
             let Some((solid, view)) = stage(kind, Stand::Between, &mut random) else { continue };
             let Some(pixel) = view.project(solid.middle) else { continue };
             let ray = view.ray(pixel.x, pixel.y);
-            let Some(Interval { entry, exit }) = solid.volume.interval(&ray, view.near, view.far) else { continue };
+            let Some(Interval { entry, exit }) = solid.interval(&ray, view.near, view.far) else { continue };
             let bounds = Bounds { inner: by_mesh(&solid, &ray), ..bounds(&solid, &view, &ray) };
             assert!(bounds.check(Some(Interval { entry, exit })).is_ok());
             assert!(bounds.check(Some(Interval { entry: exit, exit: entry })).is_err(), "{kind}: swapped");

@@ -1,13 +1,13 @@
 //! The layers that lenses cut a ray into.
 
 use glam::DVec3;
-use lenspeel::lens::{LensSet, RayLayers, Volume, build_volume};
+use lenspeel::lens::{LensSet, RayLayers, Volume};
 use lenspeel::spec::{Rotation, Shape};
 use lenspeel::view::{Ray, View};
 
 use crate::camera::camera;
 use crate::random::Random;
-use crate::solid::{KINDS, Solid, placement};
+use crate::solid::{KINDS, Solid, build, only_interval, placement};
 
 const CASES: usize = 400;
 const LENSES: usize = 6;
@@ -41,7 +41,7 @@ fn the_set_at_a_depth_is_that_of_the_intervals() {
         for _ in 0..10 {
             let ray = view.ray(random.between(0.0, 16.0), random.between(0.0, 16.0));
             let found = layers(&volumes, &ray, view.near, view.far);
-            let intervals: Vec<_> = volumes.iter().map(|v| v.interval(&ray, view.near, view.far)).collect();
+            let intervals: Vec<_> = volumes.iter().map(|v| only_interval(v, &ray, view.near, view.far)).collect();
             for _ in 0..10 {
                 let depth = random.between(view.near, view.far);
                 let near_boundary = |x: f64| (x - depth).abs() < 1e-4 * (1.0 + depth.abs());
@@ -92,7 +92,7 @@ fn the_entry_belongs_to_a_lens_and_the_exit_does_not() {
         let (volumes, view) = scattered(&mut random);
         let ray = view.ray(8.0, 8.0);
         for (rank, volume) in volumes.iter().enumerate() {
-            let Some(interval) = volume.interval(&ray, view.near, view.far) else { continue };
+            let Some(interval) = only_interval(volume, &ray, view.near, view.far) else { continue };
             let alone = layers(std::slice::from_ref(volume), &ray, view.near, view.far);
             assert!(alone.set_at(interval.entry).contains(0), "lens {rank} at its entry");
             assert!(interval.exit == view.far || !alone.set_at(interval.exit).contains(0), "lens {rank} at its exit");
@@ -110,7 +110,7 @@ fn row(random: &mut Random, view: &View, count: usize) -> Vec<Volume> {
     let between = |pair: &[f64]| {
         let center = [0.5 * (pair[0] + pair[1]), 0.1, -0.2];
         let shape = Shape::Box { center, size: [pair[1] - pair[0], 1.1, 0.9], rotation: Rotation::default() };
-        build_volume(&shape, &placed, view).expect("a box")
+        build(&shape, &placed, view).expect("a box")
     };
     borders.windows(2).map(between).collect()
 }
@@ -155,7 +155,7 @@ fn a_real_gap_stays_one() {
             rotation: Rotation::default(),
             scale: [1.0; 3],
         };
-        build_volume(&shape, &placed, &view).expect("a box")
+        build(&shape, &placed, &view).expect("a box")
     };
     let ray = Ray { origin: DVec3::ZERO, direction: DVec3::X };
     let counts = [0.0, 1e-7, 1e-4, 1e-3].map(|gap| {

@@ -20,7 +20,7 @@ fn every_pixel_with_an_interval_is_in_the_rectangle() {
                     for x in 0..view.size[0] {
                         let at = |p: u32, random: &mut Random| f64::from(p) + random.between(0.0, 1.0);
                         let (px, py) = (at(x, &mut random), at(y, &mut random));
-                        let seen = solid.volume.interval(&view.ray(px, py), view.near, view.far).is_some();
+                        let seen = solid.interval(&view.ray(px, py), view.near, view.far).is_some();
                         let held = (rect.min[0]..rect.max[0]).contains(&x) && (rect.min[1]..rect.max[1]).contains(&y);
                         assert!(!seen || held, "{kind} {stand:?}: {px},{py} is not in {rect:?}: {view:?}");
                     }

@@ -1,9 +1,9 @@
 //! Random lens shapes, with what plain geometry says of them: support points and a mesh.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use lenspeel::lens::{Placement, Volume, build_volume};
-use lenspeel::spec::{Rotation, Shape};
-use lenspeel::view::View;
+use lenspeel::lens::{Interval, LensMeshes, Placement, Volume, build_volume};
+use lenspeel::spec::{At, Rotation, Shape};
+use lenspeel::view::{Ray, View};
 
 use crate::facets::{Triangle, capsule_profile, corners_of_planes, frame, hull_facets, lathe};
 use crate::random::Random;
@@ -49,7 +49,26 @@ pub struct Solid {
     corners: Vec<DVec3>,
 }
 
+/// The volume of a shape that names no mesh.
+pub fn build(shape: &Shape, placement: &Placement, view: &View) -> Result<Volume, String> {
+    let shape = At::new(shape.clone(), 0..0);
+    build_volume(&shape, placement, view, &LensMeshes::default()).map_err(|reason| reason.value)
+}
+
+/// The interval of a convex volume.
+pub fn only_interval(volume: &Volume, ray: &Ray, near: f64, far: f64) -> Option<Interval> {
+    let mut found = Vec::new();
+    volume.intervals(ray, near, far, &mut found);
+    assert!(found.len() <= 1, "{found:?}");
+    found.pop()
+}
+
 impl Solid {
+    /// The interval that the library finds; these solids have at most one.
+    pub fn interval(&self, ray: &Ray, near: f64, far: f64) -> Option<Interval> {
+        only_interval(&self.volume, ray, near, far)
+    }
+
     /// The farthest point of the solid along a direction.
     pub fn support(&self, normal: DVec3) -> DVec3 {
         self.map.transform_point3(self.body.support(self.map.matrix3.transpose() * normal))
@@ -68,7 +87,7 @@ impl Solid {
     pub fn new(kind: &str, random: &mut Random, placement: &Placement, view: &View) -> Option<Self> {
         let shape = shape(kind, random);
         let map = placement.attach * own_map(placement);
-        let volume = build_volume(&shape, placement, view).unwrap_or_else(|e| panic!("{shape:?}: {e}"));
+        let volume = build(&shape, placement, view).unwrap_or_else(|e| panic!("{shape:?}: {e}"));
         let (body, triangles, map, corners, between) = match &shape {
             Shape::Flat { corners, depth } => {
                 let corners: Vec<DVec3> = corners.iter().map(|c| map.transform_point3(DVec3::from_array(*c))).collect();
@@ -80,7 +99,7 @@ impl Solid {
                 (body, triangles, map, Vec::new(), None)
             }
         };
-        let is_flat = volume.is_flat;
+        let is_flat = volume.is_flat();
         let triangles: Vec<Triangle> = triangles.into_iter().map(|t| t.map(|p| map.transform_point3(p))).collect();
         let middle = between.unwrap_or_else(|| middle(&triangles));
         let mut solid = Self { volume, facets: Vec::new(), middle, size: 0.0, is_flat, body, map, corners };
@@ -187,7 +206,7 @@ fn geometry(shape: &Shape) -> (Body, Vec<Triangle>) {
         }
         Shape::Polytope { planes } => solid(corners_of_planes(planes)),
         Shape::Hull { points } => solid(points.iter().map(|p| v(*p)).collect()),
-        Shape::Flat { .. } => unreachable!("a flat lens depends on the eye"),
+        _ => unreachable!("a flat lens depends on the eye, and others are not drawn here"),
     }
 }
 

@@ -22,7 +22,7 @@ pub fn of(plan: &Plan, size: [u32; 2], aovs: &Aovs) -> String {
     }
     text += &format!("\none of {across} x {down} pixels\n{NOTHING} nothing\n{PLAIN} no lens\n");
     for region in &map.regions {
-        let stack: Vec<String> = region.stack.iter().map(|(lens, filter)| format!("{lens}.{filter}")).collect();
+        let stack: Vec<String> = region.stack.iter().map(|entry| entry.to_string()).collect();
         text += &format!("{} {}: {}\n", letter(region.id), region.lenses.join(" + "), stack.join(" < "));
     }
     text

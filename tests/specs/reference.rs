@@ -3,10 +3,10 @@
 use glam::Vec3;
 use lenspeel::cpu;
 use lenspeel::frame::{Aovs, Frame};
-use lenspeel::plan::LensSet;
+use lenspeel::plan::{LensSet, Region};
 
 use crate::compare::{Reference, Rules};
-use crate::edges::{JUMP, Mask, STEP, around, changes, depth_jumps, either};
+use crate::edges::{JUMP, Mask, STEP, around, changes, depth_jumps, either, regions};
 use crate::open::Opened;
 
 /// Normals of one surface that turn by more than this from pixel to pixel meet in a crease; radians.
@@ -22,6 +22,7 @@ pub fn of(opened: &Opened) -> Reference {
     let rules = |near_edge: &Mask| Rules { near_edge: near_edge.clone(), exempt: vec![false; near_edge.len()] };
     Reference {
         region: rules(&maps),
+        stack: rules(&maps),
         node: rules(&maps),
         layers: rules(&maps),
         depth: rules(&either(&maps, &depth_jumps(frame.size, &aovs.depth, STEP))),
@@ -32,7 +33,7 @@ pub fn of(opened: &Opened) -> Reference {
 
 /// Edges of the maps: regions, nodes, jumps in depth, and lens boundaries, which the layers show.
 fn map_edges(frame: &Frame, aovs: &Aovs) -> Mask {
-    let visible = either(&changes(frame.size, &aovs.sets), &changes(frame.size, &aovs.nodes));
+    let visible = either(&changes(frame.size, &regions(aovs)), &changes(frame.size, &aovs.nodes));
     let lenses = changes(frame.size, &aovs.layers);
     either(&either(&visible, &lenses), &depth_jumps(frame.size, &aovs.depth, JUMP))
 }
@@ -47,7 +48,7 @@ fn creases(frame: &Frame, aovs: &Aovs) -> Mask {
 /// the lens boundaries before it.
 #[derive(PartialEq)]
 struct Makeup {
-    fragments: Vec<(u32, LensSet, LensSet)>,
+    fragments: Vec<(u32, Region)>,
     boundaries: Vec<LensSet>,
 }
 
@@ -57,7 +58,7 @@ fn hidden_edges(renderer: &cpu::Renderer, size: [u32; 2]) -> Mask {
         let report = renderer.explain(at % size[0], at / size[0]);
         let end = report.visible.map_or(f64::INFINITY, |visible| f64::from(visible.fragment.depth));
         Makeup {
-            fragments: report.fragments.iter().map(|(f, ..)| (f.item, f.set, f.stack)).collect(),
+            fragments: report.fragments.iter().map(|(f, ..)| (f.instance, f.region)).collect(),
             boundaries: report.layers.starts.iter().filter(|start| start.depth < end).map(|s| s.set).collect(),
         }
     };

@@ -46,8 +46,8 @@ fn vec4(v: [f32; 4]) -> Vec4<f32> {
 }
 
 fn op(op: &Op) -> wgsl::Op {
-    let Op { kind, texture, flags, pad, a, b, c } = *op;
-    wgsl::Op { kind, texture, flags, pad, a: vec4(a), b: vec4(b), c: vec4(c) }
+    let Op { kind, texture, flags, inner, a, b, c } = *op;
+    wgsl::Op { kind, texture, flags, inner, a: vec4(a), b: vec4(b), c: vec4(c) }
 }
 
 fn surface(random: &mut Random) -> wgsl::Surface {
@@ -65,7 +65,7 @@ fn surface(random: &mut Random) -> wgsl::Surface {
         alpha_mode: if number() < 0.5 { wgsl::ALPHA_BLEND.0 } else { wgsl::ALPHA_OPAQUE.0 },
         alpha_cutoff: 0.5,
         opacity: 1.0,
-        unlit: 0,
+        unlit: 0.0,
     }
 }
 

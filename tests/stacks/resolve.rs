@@ -1,6 +1,6 @@
 //! Every set of up to six lenses on random graphs: displayed, S and the stack of every fragment.
 
-use lenspeel::plan::{Item, LensSet, Plan, survivors};
+use lenspeel::plan::{Instance, Item, LensSet, Plan, survivors};
 use lenspeel::spec::Pattern;
 
 use crate::case::{ALTERNATES, Case, random_acyclic, shuffled};
@@ -30,10 +30,16 @@ fn origin(plan: &Plan, item: &Item) -> Origin {
     }
 }
 
+/// An item where it stands.
+fn in_place<'a>(plan: &'a Plan, item: &Item) -> &'a Instance {
+    let is_item = |instance: &&Instance| plan.items[instance.item].first_triangle == item.first_triangle;
+    plan.instances.iter().find(is_item).expect("every item stands in place")
+}
+
 /// What the plan says of an item at a point inside the given lenses (positions in the file).
 fn planned(plan: &Plan, item: &Item, inside: &[usize]) -> Option<Displayed> {
     let ranks: LensSet = (0..plan.lenses.len()).filter(|rank| inside.contains(&plan.lenses[*rank].index)).collect();
-    let verdict = plan.walk(item, ranks);
+    let verdict = plan.walk(in_place(plan, item), |_| ranks);
     let files = |set: LensSet| set.iter().map(|rank| plan.lenses[rank].index).collect();
     verdict.displayed.then(|| Displayed { set: files(verdict.set), stack: files(verdict.stack) })
 }
@@ -146,7 +152,7 @@ fn survivors_of_a_region_are_those_of_an_untouched_fragment() {
         for item in plan.items.iter().filter(|item| !item.is_alternate()) {
             for bits in 0..1usize << plan.lenses.len() {
                 let inside: LensSet = (0..plan.lenses.len()).filter(|rank| bits >> rank & 1 == 1).collect();
-                let verdict = plan.walk(item, inside);
+                let verdict = plan.walk(in_place(&plan, item), |_| inside);
                 assert_eq!(verdict.stack, survivors(&plan.lenses, verdict.set));
             }
         }

@@ -6,6 +6,7 @@
 use std::fmt;
 
 use lenspeel::frame::{Aovs, Frame};
+use lenspeel::plan::LensSet;
 
 use crate::edges::Mask;
 
@@ -28,6 +29,7 @@ pub struct Rules {
 pub struct Reference {
     pub frame: Frame,
     pub region: Rules,
+    pub stack: Rules,
     pub node: Rules,
     pub layers: Rules,
     pub depth: Rules,
@@ -89,7 +91,8 @@ pub fn compare(reference: &Reference, actual: &Frame) -> Result<Outcome, String>
     let width = actual.size[0] as usize;
     let (colors, there) = (&reference.frame.pixels, &actual.pixels);
     Ok(Outcome(vec![
-        tally("region", width, &reference.region, &want.sets, &got.sets, PartialEq::eq),
+        tally("region", width, &reference.region, &sets(want), &sets(got), PartialEq::eq),
+        tally("stack", width, &reference.stack, &stacks(want), &stacks(got), PartialEq::eq),
         tally("node", width, &reference.node, &want.nodes, &got.nodes, PartialEq::eq),
         tally("layers", width, &reference.layers, &want.layers, &got.layers, PartialEq::eq),
         tally("depth", width, &reference.depth, &want.depth, &got.depth, same_depth),
@@ -99,6 +102,14 @@ pub fn compare(reference: &Reference, actual: &Frame) -> Result<Outcome, String>
 
 fn maps(frame: &Frame) -> Result<&Aovs, String> {
     frame.aovs.as_ref().ok_or_else(|| "a picture without AOVs cannot be compared".into())
+}
+
+fn sets(aovs: &Aovs) -> Vec<Option<LensSet>> {
+    (0..aovs.regions.len()).map(|at| aovs.region(at).map(|region| region.set)).collect()
+}
+
+fn stacks(aovs: &Aovs) -> Vec<Option<LensSet>> {
+    (0..aovs.regions.len()).map(|at| aovs.region(at).map(|region| region.stack)).collect()
 }
 
 fn same_depth(want: &f32, got: &f32) -> bool {

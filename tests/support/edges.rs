@@ -2,6 +2,14 @@
 
 use std::ops::Range;
 
+use lenspeel::frame::Aovs;
+use lenspeel::plan::Region;
+
+/// The region of every pixel.
+pub fn regions(aovs: &Aovs) -> Vec<Option<Region>> {
+    (0..aovs.regions.len()).map(|at| aovs.region(at)).collect()
+}
+
 /// One flag a pixel.
 pub type Mask = Vec<bool>;
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{hidden_json, order_json, stack_json};
 use crate::cpu::{Fragment, PixelReport, Removed, Renderer};
-use crate::plan::{LensSet, Plan, Reasons, Region};
+use crate::plan::{LensSet, Plan, Reasons, filter_name};
 use crate::scene::Scene;
 use crate::spec::{Filter, Spec};
 
@@ -65,10 +65,7 @@ impl<'a> PixelAccount<'a> {
         };
         let removed = |removed: &Removed| {
             let mut value = self.fragment_json(&removed.fragment);
-            let by = removed
-                .by
-                .iter()
-                .map(|rank| json!({ "lens": self.plan.lenses[rank].name, "filter": self.remover(rank) }));
+            let by = removed.by.iter().map(|rank| json!({ "lens": self.actor(rank), "filter": self.remover(rank) }));
             value["removed_by"] = by.collect();
             value
         };
@@ -90,42 +87,53 @@ impl<'a> PixelAccount<'a> {
 
     /// A line for a fragment and one for each reason.
     fn fragment_text(&self, fragment: &Fragment, more: &str) -> String {
-        let (node, material) = self.names(fragment.item);
-        let stack: Vec<&str> = fragment.stack.iter().map(|rank| self.plan.lenses[rank].name.as_str()).collect();
+        let (node, material) = self.names(fragment.instance);
+        let stack: Vec<String> = fragment.region.stack.iter().map(|rank| self.actor(rank)).collect();
         let stack = if stack.is_empty() { "none".into() } else { stack.join(" < ") };
-        let (depth, triangle, set) = (fragment.depth, fragment.triangle, self.set_text(fragment.set));
+        let (depth, triangle, set) = (fragment.depth, fragment.triangle, self.set_text(fragment.region.set));
         format!("  {depth:12.5}  {node} ({material}), triangle {triangle}: in {set}; stack {stack}; {more}\n")
-            + &self.reasons.lines(&region(fragment), "                  ")
+            + &self.reasons.lines(&fragment.region, "                  ")
     }
 
     fn fragment_json(&self, fragment: &Fragment) -> Value {
-        let (node, material) = self.names(fragment.item);
-        let region = region(fragment);
+        let (node, material) = self.names(fragment.instance);
+        let region = fragment.region;
         json!({
             "depth": fragment.depth,
             "node": node,
             "material": material,
             "triangle": fragment.triangle,
-            "lenses": self.plan.names(fragment.set),
-            "stack": stack_json(self.plan, fragment.stack),
+            "lenses": self.plan.names(fragment.region.set),
+            "stack": stack_json(self.plan, region),
             "hidden": hidden_json(&self.reasons, &region),
-            "order": order_json(&self.reasons, fragment.stack),
+            "order": order_json(&self.reasons, fragment.region.stack),
         })
     }
 
     fn remover_text(&self, rank: usize) -> String {
-        format!("{} ({})", self.plan.lenses[rank].name, self.remover(rank))
+        format!("{} ({})", self.actor(rank), self.remover(rank))
+    }
+
+    fn actor(&self, rank: usize) -> String {
+        match self.plan.rule_of(rank) {
+            Some(rule) => format!("rule {rule}"),
+            None => self.plan.lenses[rank].name.clone(),
+        }
     }
 
     /// The filter by which a lens takes a fragment away; one that shows something replaces all the rest.
     fn remover(&self, rank: usize) -> &'static str {
-        let shows = self.plan.lenses[rank].filters.iter().any(|filter| matches!(filter, Filter::Show(_)));
-        if shows { "show" } else { "erase" }
+        let filters = self.plan.filters_of(rank);
+        let by = |wanted: fn(&Filter) -> bool| filters.iter().find(|filter| wanted(filter)).map(filter_name);
+        by(|f| matches!(f, Filter::Show(_)))
+            .or(by(|f| matches!(f, Filter::Erase { .. })))
+            .or(by(Filter::moves))
+            .unwrap_or("nothing")
     }
 
-    /// Names of an item's node and material; numbers where the file gives none.
-    fn names(&self, item: u32) -> (String, String) {
-        let item = &self.plan.items[item as usize];
+    /// Names of an instance's node and material; numbers where the file gives none.
+    fn names(&self, instance: u32) -> (String, String) {
+        let item = &self.plan.items[self.plan.instances[instance as usize].item];
         let model = &self.scene.models[item.model];
         let or_number = |name: &str, kind: &str, i: usize| {
             if name.is_empty() { format!("{kind} {i}") } else { name.to_string() }
@@ -136,8 +144,4 @@ impl<'a> PixelAccount<'a> {
             or_number(&model.materials[material].name, "material", material),
         )
     }
-}
-
-fn region(fragment: &Fragment) -> Region {
-    Region { set: fragment.set, stack: fragment.stack }
 }

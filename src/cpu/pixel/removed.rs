@@ -1,14 +1,14 @@
 //! What is not seen because a lens takes it away, for `explain`.
 
-use super::{Fragment, Reach, ShearedRay, Tracer};
+use super::{Fragment, MovedLayers, Reach, ShearedRay, Tracer};
 use crate::lens::RayLayers;
-use crate::plan::{Item, LensSet, Verdict};
+use crate::plan::{LensSet, Region};
 
-/// A fragment that lenses erase or replace.
+/// A fragment that lenses erase, replace or move elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Removed {
     pub fragment: Fragment,
-    /// The lenses of its stack that erase it or show something else.
+    /// The lenses of its stack, or the rule, that do so.
     pub by: LensSet,
 }
 
@@ -24,6 +24,7 @@ impl Tracer<'_> {
         let Reach { start, scale } = self.reach;
         let (origin, direction) = self.traced(&ray);
         let sheared = ShearedRay::new(origin, direction);
+        let mut moved = MovedLayers::default();
         let mut removed = Vec::new();
         for triangle in self.geometry.iter().flat_map(|geometry| &geometry.triangles) {
             let Some(hit) = sheared.hit(&triangle.corners) else { continue };
@@ -32,35 +33,23 @@ impl Tracer<'_> {
             if !in_view || self.is_culled(triangle, direction) {
                 continue;
             }
-            let item = &self.plan.items[triangle.item as usize];
-            let verdict = self.plan.walk(item, layers.set_at(f64::from(depth)));
-            let by = removers(item, &verdict);
-            if !verdict.displayed && !by.is_empty() {
+            let verdict = self.verdict(&ray, triangle.instance, depth, &layers, &mut moved);
+            // What is moved is told of where it stands and where it is seen, not where it might have been.
+            let told = verdict.here || !self.instance(triangle.instance).is_moved();
+            if told && !verdict.removed_by.is_empty() {
                 let fragment = Fragment {
-                    item: triangle.item,
+                    instance: triangle.instance,
                     triangle: triangle.index,
                     depth,
                     weights: hit.weights,
-                    set: verdict.set,
-                    stack: verdict.stack,
+                    region: Region { set: verdict.set, stack: verdict.stack },
                 };
-                removed.push(Removed { fragment, by });
+                removed.push(Removed { fragment, by: verdict.removed_by });
             }
         }
         removed.sort_unstable_by(|a, b| {
             self.key(&a.fragment).partial_cmp(&self.key(&b.fragment)).unwrap_or(std::cmp::Ordering::Equal)
         });
         removed
-    }
-}
-
-/// The lenses of a stack that take an item away: of an alternate those above the lens that shows it. An alternate that
-/// no lens shows is not taken away, it is not there.
-fn removers(item: &Item, verdict: &Verdict) -> LensSet {
-    let by = verdict.stack & item.removed_by;
-    match (verdict.stack & item.shown_by).top() {
-        Some(shown) => by.minus(LensSet::below(shown + 1)),
-        None if item.is_alternate() => LensSet::EMPTY,
-        None => by,
     }
 }

@@ -41,8 +41,8 @@ pub const FILTERS: &[FilterRow] = &[
     built("erase", Content, "removes what it matches", ERASE),
     built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
     planned("lod", Content, "shows a simplified version", LOD),
-    mover(planned("magnify", Content, "enlarges what is inside", MAGNIFY)),
-    mover(planned("displace", Content, "moves matched nodes", DISPLACE)),
+    mover(built("magnify", Content, "enlarges what is inside", MAGNIFY)),
+    mover(built("displace", Content, "moves matched nodes", DISPLACE)),
     built("opacity", Surface, "multiplies the opacity", OPACITY),
     planned("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
     built("tint", Colour, "mixes a colour in", TINT),
@@ -89,8 +89,13 @@ const MAGNIFY: &[Param] = &[
 ];
 const DISPLACE: &[Param] = &[
     param("nodes", Patterns, EVERYTHING, "nodes that move"),
-    param("offset", Vector, Meaning("none"), "by this much, scene units"),
-    param("explode", Number(NumberRange::ANY), Meaning("none"), "by this times the way from the lens's centre"),
+    param("offset", Vector, Meaning("none"), "by this much along the scene's axes, scene units"),
+    param(
+        "explode",
+        Number(NumberRange::ANY),
+        Meaning("0.5 without an offset, else 0"),
+        "each by this times the way from the lens's centre to its own",
+    ),
 ];
 const OPACITY: &[Param] = &[param("value", UNIT, Num(0.5), "factor")];
 const GHOST: &[Param] =

@@ -18,6 +18,7 @@ use crate::spec::{At, Color, Filter, NumberRange, Pattern, ShowWhat, UvMapping};
 enum Value {
     Number(f64),
     Pair([f64; 2]),
+    Vector([f64; 3]),
     Color(Color),
     Bool(bool),
     Text(At<String>),
@@ -154,8 +155,20 @@ impl<'a> Params<'a> {
 
     /// A number where the row has a default number or the file one; else `None`.
     fn number(&self, name: &str) -> Option<f32> {
+        self.double(name).map(|value| value as f32)
+    }
+
+    /// The same for what geometry is computed from.
+    fn double(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
-            Value::Number(value) => Some(*value as f32),
+            Value::Number(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    fn vector(&self, name: &str) -> Option<[f64; 3]> {
+        match self.get(name)? {
+            Value::Vector(vector) => Some(*vector),
             _ => None,
         }
     }
@@ -211,7 +224,7 @@ fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
             Value::Text(item.at(item.choice(&choices)?.to_owned()))
         }
         ParamKind::Patterns => Value::Patterns(item.patterns()?),
-        ParamKind::Vector => item.vector().map(|_| Value::Other)?,
+        ParamKind::Vector => Value::Vector(item.vector()?),
         ParamKind::FreeTable => match item.value {
             DeValue::Table(_) => Value::Other,
             _ => return Err(item.wrong_type("a table")),
@@ -242,6 +255,8 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
             materials: params.patterns("materials").unwrap_or_default(),
         }),
         "show" => Some(Filter::Show(show(params)?)),
+        "magnify" => params.double("factor").map(|factor| Filter::Magnify { factor, center: params.vector("center") }),
+        "displace" => Some(displace(params)),
         "opacity" => params.number("value").map(|value| Filter::Opacity { value }),
         "tint" => {
             params.color("color").zip(params.number("amount")).map(|(color, amount)| Filter::Tint { color, amount })
@@ -274,6 +289,18 @@ fn show(params: &Params) -> Result<ShowWhat, InputError> {
         (Some(_), Some(_)) => {
             Err(params.error("filter `show` takes `alternate` or `nodes`, not both".to_owned()).help(REMEDY))
         }
+    }
+}
+
+/// What `displace` does when nothing else is said.
+const EXPLODE: f64 = 0.5;
+
+fn displace(params: &Params) -> Filter {
+    let offset = params.vector("offset");
+    Filter::Displace {
+        nodes: params.patterns("nodes").unwrap_or_default(),
+        offset: offset.unwrap_or_default(),
+        explode: params.double("explode").unwrap_or(if offset.is_some() { 0.0 } else { EXPLODE }),
     }
 }
 

@@ -4,7 +4,7 @@ use toml::de::DeValue;
 
 use super::item::Item;
 use super::table::Table;
-use super::{filter, keys, later, shape};
+use super::{filter, keys, shape};
 use crate::InputError;
 use crate::spec::{At, Attach, By, Glass, LensSpec, Matches, NumberRange, OverlapMode, Pattern};
 
@@ -12,7 +12,6 @@ pub fn read(item: &Item) -> Result<LensSpec, InputError> {
     let table = Table::open(item, "[[lens]]", keys::LENS)?;
     let name = name(&table.need("name")?)?;
     let table = table.called(format!("lens `{}`", name.value));
-    soft(&table)?;
     Ok(LensSpec {
         name,
         enabled: table.read("enabled", Item::boolean)?.unwrap_or(true),
@@ -30,6 +29,7 @@ pub fn read(item: &Item) -> Result<LensSpec, InputError> {
         by: table.read("by", |item| item.choice(&[("pixel", By::Pixel), ("object", By::Object)]))?.unwrap_or(By::Pixel),
         only: table.read("only", matches)?.unwrap_or_default(),
         except: table.read("except", matches)?.unwrap_or_default(),
+        soft: table.read("soft", |item| item.number(NumberRange::NOT_NEGATIVE))?.unwrap_or(0.0),
         glass: table.read("glass", glass)?.unwrap_or(Some(Glass::default())),
     })
 }
@@ -96,14 +96,6 @@ fn matches(item: &Item) -> Result<Matches, InputError> {
         nodes: table.read("nodes", Item::patterns)?.unwrap_or_default(),
         materials: table.read("materials", Item::patterns)?.unwrap_or_default(),
     })
-}
-
-fn soft(table: &Table) -> Result<(), InputError> {
-    let Some(item) = table.get("soft") else { return Ok(()) };
-    match item.number(NumberRange::NOT_NEGATIVE)? {
-        0.0 => Ok(()),
-        _ => Err(later::feature(&item, "`soft` other than 0", "leave it out for a sharp boundary")),
-    }
 }
 
 /// `false` for none, or a table.

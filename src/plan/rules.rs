@@ -1,0 +1,106 @@
+//! Overlap rules: an explicit style for chosen overlaps (SEMANTICS 4).
+
+use std::ops::Range;
+
+use super::{Lens, LensSet, Op, Plan, filter_name};
+use crate::scene::Scene;
+use crate::spec::{Condition, Filter, Spec};
+
+/// A rule. In stacks it stands at the rank [`Plan::rule_rank`], behind all lenses.
+#[derive(Debug, Clone)]
+pub struct Rule {
+    pub when: Test,
+    pub filters: Vec<Filter>,
+    /// Its appearance filters in [`Plan::ops`].
+    pub ops: Range<usize>,
+    /// Whether its filters may make a fragment less than opaque.
+    pub translucent: bool,
+}
+
+/// The condition of a rule over the lenses that contain a point.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Test {
+    /// One of these does. A disabled lens is in no test.
+    Any(LensSet),
+    Not(Box<Test>),
+    And(Box<Test>, Box<Test>),
+    Or(Box<Test>, Box<Test>),
+}
+
+impl Test {
+    pub fn holds(&self, set: LensSet) -> bool {
+        match self {
+            Test::Any(lenses) => !(*lenses & set).is_empty(),
+            Test::Not(inner) => !inner.holds(set),
+            Test::And(left, right) => left.holds(set) && right.holds(set),
+            Test::Or(left, right) => left.holds(set) || right.holds(set),
+        }
+    }
+
+    fn new(condition: &Condition, lenses: &[Lens]) -> Self {
+        let boxed = |inner: &Condition| Box::new(Self::new(inner, lenses));
+        match condition {
+            Condition::Lens(pattern) => {
+                Test::Any((0..lenses.len()).filter(|rank| pattern.value.matches(&lenses[*rank].name)).collect())
+            }
+            Condition::Not(inner) => Test::Not(boxed(inner)),
+            Condition::And(left, right) => Test::And(boxed(left), boxed(right)),
+            Condition::Or(left, right) => Test::Or(boxed(left), boxed(right)),
+        }
+    }
+}
+
+/// The rules of a spec in their order, their filters behind those of the lenses.
+pub(super) fn collect(spec: &Spec, scene: &Scene, lenses: &[Lens], ops: &mut Vec<Op>) -> Vec<Rule> {
+    let rule = |rule: &crate::spec::OverlapSpec| {
+        let filters: Vec<Filter> = rule.filters.iter().map(|f| f.value.clone()).collect();
+        let own = Op::append(&filters, scene, ops);
+        Rule {
+            when: Test::new(&rule.when.value, lenses),
+            translucent: ops[own.clone()].iter().any(Op::may_be_translucent),
+            ops: own,
+            filters,
+        }
+    };
+    spec.overlaps.iter().map(rule).collect()
+}
+
+impl Plan {
+    /// The rank at which a rule stands in stacks.
+    pub fn rule_rank(&self, rule: usize) -> usize {
+        self.lenses.len() + rule
+    }
+
+    /// The rule of a rank, or `None` for a lens.
+    pub fn rule_of(&self, rank: usize) -> Option<usize> {
+        rank.checked_sub(self.lenses.len())
+    }
+
+    /// All filters of a lens or rule of a stack, first to act first.
+    pub fn filters_of(&self, rank: usize) -> &[Filter] {
+        match self.rule_of(rank) {
+            Some(rule) => &self.rules[rule].filters,
+            None => &self.lenses[rank].filters,
+        }
+    }
+
+    /// Names of the filters of a lens or rule of a stack.
+    pub fn filter_names(&self, rank: usize) -> impl Iterator<Item = &'static str> + '_ {
+        self.filters_of(rank).iter().map(filter_name)
+    }
+
+    /// Into [`Plan::ops`]: the appearance filters of a lens or rule of a stack.
+    pub fn ops_of(&self, rank: usize) -> Range<usize> {
+        match self.rule_of(rank) {
+            Some(rule) => self.rules[rule].ops.clone(),
+            None => self.lenses[rank].ops.clone(),
+        }
+    }
+
+    /// The lenses and rules whose filters may make a fragment less than opaque.
+    pub fn translucent(&self) -> LensSet {
+        let lenses = (0..self.lenses.len()).filter(|rank| self.lenses[*rank].translucent);
+        let rules = (0..self.rules.len()).filter(|rule| self.rules[*rule].translucent);
+        lenses.chain(rules.map(|rule| self.rule_rank(rule))).collect()
+    }
+}
