@@ -80,9 +80,10 @@ fn check(attach: &str, outer: Place, own: Place) {
     for shape in SHAPES {
         let attached = render(shape, attach, &own);
         let by_hand = render(shape, "\"scene\"", &own.within(&outer));
-        let inside = maps(&attached).sets.iter().flatten().filter(|set| !set.is_empty()).count();
+        let is_inside = |id: &&u32| maps(&attached).table.get(**id as usize).is_some_and(|r| !r.set.is_empty());
+        let inside = maps(&attached).regions.iter().filter(is_inside).count();
         assert!(inside > 20, "{shape}: only {inside} pixels of the scene are inside, attached to {attach}");
-        assert!(maps(&attached).sets == maps(&by_hand).sets, "other sets: {shape} attached to {attach}");
+        assert!(maps(&attached).regions == maps(&by_hand).regions, "other regions: {shape} attached to {attach}");
         assert!(maps(&attached).layers == maps(&by_hand).layers, "other layers: {shape} attached to {attach}");
         assert!(attached.pixels == by_hand.pixels, "other colours: {shape} attached to {attach}");
         let wrong = Place { rotation: outer.rotation * degrees(0.0, 0.0, 10.0), ..outer };

@@ -46,9 +46,6 @@ impl Scene {
             models.push(load(&path.value, None, &path.span)?);
         }
         let mut scene = Self::new(models, spec.scene.alternates.iter().map(|(name, _)| name.clone()).collect());
-        if let Some(time) = &spec.scene.time {
-            scene.pose(Some(time.value)).map_err(|e| e.or_at(&spec.source, time.span.clone()))?;
-        }
         let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
         for filter in filters {
             if let Filter::Texture { file, .. } = &filter.value {
@@ -61,6 +58,10 @@ impl Scene {
             known.insert(&file.value, &scene.models[0]);
         }
         scene.lens_meshes = lens_meshes::open(spec, &known)?;
+        // After the lenses: the time is the scene's, and a mesh lens has the shape its file gives at rest.
+        if let Some(time) = &spec.scene.time {
+            scene.pose(Some(time.value)).map_err(|e| e.or_at(&spec.source, time.span.clone()))?;
+        }
         Ok(scene)
     }
 
