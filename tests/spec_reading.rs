@@ -4,8 +4,8 @@ use std::path::Path;
 
 use lenspeel::InputError;
 use lenspeel::spec::{
-    Attach, CameraPlace, Color, Condition, Filter, ImageSpec, ProjectionSpec, Rotation, SceneChoice, Shape, ShowWhat,
-    Spec,
+    At, Attach, CameraPlace, Color, Condition, Convex, Filter, ImageSpec, ProjectionSpec, Rotation, SceneChoice, Shape,
+    ShowWhat, Spec,
 };
 use proptest::prelude::*;
 
@@ -44,7 +44,7 @@ fn camera_and_light() {
 #[test]
 fn lenses() {
     let spec = whole();
-    let [shell, probe, cut] = spec.lenses.as_slice() else { panic!("three lenses") };
+    let [shell, probe, cut, _] = spec.lenses.as_slice() else { panic!("four lenses") };
     assert_eq!(shell.shape.value, Shape::Sphere { center: [0.0; 3], radius: 0.8 });
     assert!(shell.glass.is_none() && shell.attach.value == Attach::Node("Wheel".to_owned()));
     assert_eq!(shell.rotation, Rotation::Quaternion([0.0, 0.0, 0.0, 2.0]));
@@ -57,6 +57,26 @@ fn lenses() {
     let Filter::Show(ShowWhat::Alternate(name)) = &cut.filters[0].value else { panic!("show") };
     assert_eq!(name.value, "bones");
     assert!(!cut.enabled && cut.priority == -3);
+}
+
+#[test]
+fn compounds_and_meshes() {
+    let spec = whole();
+    let ring = &spec.lenses[3].shape;
+    let Shape::Difference(list) = &ring.value else { panic!("a difference") };
+    assert!(matches!(list[0].value, Shape::Union(_)) && matches!(list[1].value, Shape::Intersection(_)));
+    let parts = ring.parts();
+    let [ball, meshes @ ..] = parts.as_slice() else { panic!("four parts") };
+    assert_eq!(ball.value, Shape::Sphere { center: [0.0; 3], radius: 2.0 });
+    let mesh = |part: &&At<Shape>| match &part.value {
+        Shape::Mesh(mesh) => (mesh.file.value.clone(), mesh.node.as_ref().map(|n| n.value.clone()), mesh.convex),
+        other => panic!("{other:?} is no mesh"),
+    };
+    let wanted = [("a", Some("Rim"), Convex::AsItStands), ("b", None, Convex::Hull), ("c", None, Convex::Decompose)];
+    let wanted =
+        wanted.map(|(file, node, convex)| (format!("folder/{file}.glb").into(), node.map(str::to_owned), convex));
+    assert_eq!(meshes.iter().map(mesh).collect::<Vec<_>>(), wanted);
+    assert!(WHOLE[meshes[2].span.clone()].starts_with("mesh = { file = \"c.glb\""), "the place of a part");
 }
 
 #[test]

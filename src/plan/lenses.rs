@@ -6,7 +6,7 @@ use glam::DAffine3;
 
 use super::{LensSet, MAX_LENSES, Op, PriorityGraph, Rank, filter_name};
 use crate::InputError;
-use crate::lens::{PixelRect, Placement, Volume, build_volume};
+use crate::lens::{MAX_PARTS, PixelRect, Placement, Volume, build_volume};
 use crate::scene::Scene;
 use crate::spec::{Attach, By, Filter, Glass, LensSpec, OverlapMode, Spec};
 use crate::view::{Projection, View};
@@ -74,10 +74,13 @@ pub(super) struct Placed {
 /// The volume of every lens of the file, disabled ones checked like the others but left out.
 pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Option<Placed>>, InputError> {
     // The reader has counted them with a better place to point at; a spec may also be built in code.
-    let enabled = spec.lenses.iter().filter(|l| l.enabled).count();
-    if enabled > MAX_LENSES {
-        let message = format!("{enabled} lenses are enabled, and at most {MAX_LENSES} can be");
-        return Err(InputError::new(message).help("disable some with `enabled = false`"));
+    let enabled = || spec.lenses.iter().filter(|l| l.enabled);
+    let parts: usize = enabled().map(|lens| lens.shape.parts().len()).sum();
+    for (count, what, most) in [(enabled().count(), "lenses", MAX_LENSES), (parts, "parts of lenses", MAX_PARTS)] {
+        if count > most {
+            let message = format!("{count} {what} are enabled, and at most {most} can be");
+            return Err(InputError::new(message).help("disable some lenses with `enabled = false`"));
+        }
     }
     spec.lenses
         .iter()

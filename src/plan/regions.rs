@@ -1,6 +1,7 @@
 //! Which regions occur: found along lines through the lenses, never by listing subsets.
 //!
-//! A line crosses N convex lenses in at most 2N+1 layers, so it finds every region it passes, however thin.
+//! A line crosses N convex lenses in at most 2N+1 layers (others in a few more), so it finds every region it passes,
+//! however thin.
 //! Lines run along three axes through a grid of points in every lens and along view rays through its pixels; the
 //! set is deterministic. A region is missed only if it slips between all of them.
 

@@ -5,11 +5,13 @@ mod color;
 mod pattern;
 mod range;
 mod read;
+mod shape;
 mod types;
 
 pub use color::Color;
 pub use pattern::Pattern;
 pub use range::NumberRange;
+pub use shape::{Convex, MeshShape, Rotation, Shape};
 pub use types::*;
 
 #[cfg(test)]

@@ -49,11 +49,11 @@ pub fn is_convex(surface: &Surface, depth: impl Fn(DVec3) -> f64) -> Result<(), 
     let Some((depth, p)) = deepest.filter(|(depth, _)| *depth > allowed) else { return Ok(()) };
     let unit = surface.pose.matrix3.x_axis.x;
     let message = format!(
-        "{} is not convex: at {} its surface lies {:.3} inside its convex hull, and {:.1e} is allowed",
+        "{} is not convex: at {} its surface lies {} inside its convex hull, and {} is allowed",
         surface.name,
         point(surface, p),
-        depth * unit,
-        allowed * unit
+        rounded(depth * unit, 3),
+        rounded(allowed * unit, 1)
     );
     Err(InputError::new(message)
         .help("write convex = \"decompose\" for the mesh's own shape, or convex = \"hull\" for its convex hull"))
@@ -61,6 +61,11 @@ pub fn is_convex(surface: &Surface, depth: impl Fn(DVec3) -> f64) -> Result<(), 
 
 /// A point in the file's space, as messages write it.
 fn point(surface: &Surface, p: DVec3) -> String {
-    let p = surface.pose.transform_point3(p).as_vec3();
-    format!("({}, {}, {})", p.x, p.y, p.z)
+    let [x, y, z] = surface.pose.transform_point3(p).to_array().map(|x| rounded(x, 6));
+    format!("({x}, {y}, {z})")
+}
+
+/// To so many digits that count.
+fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
