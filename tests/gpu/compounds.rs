@@ -67,7 +67,7 @@ pub fn crossings_that_overflow(device: &Headless) -> Result<(), String> {
     let lens = "[[lens]]\nname = \"row\"\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nfilters = [\"invert\"]\n";
     let (scene, mut plan) = planned(SIZE, 1, "eye = [0, 0.3, 4]\ntarget = [0, 0.3, 0]\nfov_y = 20", lens);
     replace(&mut plan, 0, of(row(BOXES)));
-    assert!(2 * BOXES > Room::FIRST.crossings);
+    const { assert!(2 * BOXES > Room::FIRST.crossings) };
     compare_layers(device, &scene, &plan)?;
     check(device, &scene, &plan)?;
     let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
@@ -115,7 +115,7 @@ fn tree(random: &mut Random, depth: u32, parts: usize) -> Tree {
 fn placed(mesh: MeshSolid, pose: DAffine3) -> Solid {
     let world_from_local = pose * DAffine3::from_scale(DVec3::splat(0.8));
     let hull = mesh.vertices.iter().map(|v| world_from_local.transform_point3(*v)).collect();
-    Solid::new(Form::Mesh(Arc::new(mesh)), world_from_local, hull, pose.translation.into(), false)
+    Solid::new(Form::Mesh(Arc::new(mesh)), world_from_local, hull, pose.translation, false)
 }
 
 /// Around the z axis.
