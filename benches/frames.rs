@@ -10,7 +10,7 @@ use std::time::Instant;
 use glam::Vec3;
 use lenspeel::gpu::{Engine, Headless, RenderOptions, Renderer, choose_named};
 use lenspeel::plan::Plan;
-use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Scene};
+use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Scene, Transform};
 use lenspeel::spec::Spec;
 
 /// Quads along each side of the surface: 2 * 708^2 = 1,002,528 triangles.
@@ -135,6 +135,7 @@ fn surface() -> Model {
         name: "surface".into(),
         parent: None,
         children: Vec::new(),
+        rest: Transform::IDENTITY,
         world_from_local: glam::DAffine3::IDENTITY,
         mesh: Some(0),
         camera: None,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::plan::Region;
 
-/// Stands in [`Aovs::regions`] where nothing is.
+/// Stands in the maps of indices where nothing is.
 pub const NOTHING: u32 = u32::MAX;
 
 /// A finished picture.
@@ -24,6 +24,10 @@ pub struct Aovs {
     pub regions: Vec<u32>,
     /// The regions that the picture has, in the order in which they were met.
     pub table: Vec<Region>,
+    /// What is visible, into [`Plan::instances`](crate::plan::Plan::instances); [`NOTHING`] where nothing is.
+    pub instances: Vec<u32>,
+    /// Which of its item's triangles; [`NOTHING`] where nothing is.
+    pub triangles: Vec<u32>,
     /// Node index in its file plus one; 0 where nothing is.
     pub nodes: Vec<u32>,
     /// Along the forward axis, scene units; infinite where nothing is.
@@ -41,6 +45,8 @@ impl Aovs {
         Self {
             regions: vec![NOTHING; count],
             table: Vec::new(),
+            instances: vec![NOTHING; count],
+            triangles: vec![NOTHING; count],
             nodes: vec![0; count],
             depth: vec![f32::INFINITY; count],
             normals: vec![[0.0; 3]; count],

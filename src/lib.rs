@@ -5,11 +5,14 @@ pub mod appearance;
 pub mod cli;
 pub mod cpu;
 mod error;
+pub mod explain;
 pub mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod lens;
 pub mod output;
+pub mod pick;
+pub mod pixel;
 pub mod plan;
 pub mod scene;
 pub mod spec;

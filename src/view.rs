@@ -72,6 +72,11 @@ impl View {
         }
     }
 
+    /// Whether the picture has this column and row.
+    pub fn has_pixel(&self, [x, y]: [u32; 2]) -> bool {
+        x < self.size[0] && y < self.size[1]
+    }
+
     /// How a ray's origin (orthographic) or direction (perspective) changes by one pixel to the right and down.
     pub fn pixel_steps(&self) -> (DVec3, DVec3) {
         let step = 2.0 * self.half_height() / f64::from(self.size[1]);

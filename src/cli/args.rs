@@ -26,8 +26,10 @@ pub enum Command {
         #[arg(long)]
         strict: bool,
     },
-    /// Explain the order of the lenses and what acts where
+    /// Explain the order of the lenses, what acts where, and how much of the picture each region takes
     Explain(ExplainArgs),
+    /// Tell what is visible at a pixel
+    Pick(PickArgs),
     /// Describe a glTF model
     Info {
         /// A .glb or .gltf file
@@ -77,15 +79,39 @@ pub struct RenderArgs {
     pub stats: Option<PathBuf>,
 }
 
+/// A spec and how it is seen by the commands that tell about a picture.
 #[derive(Debug, Args)]
-pub struct ExplainArgs {
+pub struct ViewArgs {
     /// The lens-spec file
     pub spec: PathBuf,
+    /// Width and height in pixels, as in 1920x1080; left out: the spec's
+    #[arg(long, value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Who finds what is seen: the GPU, the CPU, or the GPU where there is a real one
+    #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
+    pub backend: BackendChoice,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    #[command(flatten)]
+    pub view: ViewArgs,
     #[arg(long, value_enum, default_value_t = ExplainFormat::Text)]
     pub format: ExplainFormat,
     /// Explain one pixel, from the top left corner: column,row
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pub pixel: Option<[u32; 2]>,
+}
+
+#[derive(Debug, Args)]
+pub struct PickArgs {
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Column and row from the top left corner, as in 640,360
+    #[arg(value_name = "X,Y", value_parser = parse_pixel)]
+    pub pixel: [u32; 2],
+    #[arg(long, value_enum, default_value_t = PickFormat::Text)]
+    pub format: PickFormat,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -111,6 +137,13 @@ pub enum ExplainFormat {
     Dot,
     /// The priority graph for Mermaid
     Mermaid,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PickFormat {
+    Text,
+    /// One object, or null where nothing is
+    Json,
 }
 
 fn pair(text: &str, separator: char) -> Option<[u32; 2]> {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use crate::scene::{Aabb, AlphaMode, Camera, LightKind, Material, Mesh, Model};
+use crate::scene::{Aabb, AlphaMode, Animation, Camera, LightKind, Material, Mesh, Model};
 
 /// Longest run of siblings that is listed one by one.
 const MAX_SIBLINGS: usize = 40;
@@ -15,8 +15,8 @@ const SHOWN_SIBLINGS: usize = 10;
 pub fn info_text(model: &Model) -> String {
     let mut out = format!("{}\n", model.name);
     totals(model, &mut out);
-    let parts: [fn(&Model) -> Vec<Row>; 7] = [scenes, nodes, materials, textures, images, lights, cameras];
-    let titles = ["scenes", "nodes", "materials", "textures", "images", "lights", "cameras"];
+    let parts: [fn(&Model) -> Vec<Row>; 8] = [scenes, nodes, materials, textures, images, lights, cameras, animations];
+    let titles = ["scenes", "nodes", "materials", "textures", "images", "lights", "cameras", "animations"];
     for (title, rows) in titles.iter().zip(parts.map(|part| part(model))) {
         section(&mut out, title, &rows);
     }
@@ -246,6 +246,18 @@ fn cameras(model: &Model) -> Vec<Row> {
         Row { cells: vec![index.to_string(), place.trim_end().to_string(), lens] }
     };
     model.cameras.iter().enumerate().map(row).collect()
+}
+
+fn animations(model: &Model) -> Vec<Row> {
+    let row = |(index, animation): (usize, &Animation)| {
+        let mut nodes: Vec<usize> = animation.channels.iter().map(|c| c.node).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let moves = format!("moves {} nodes", nodes.len());
+        let cells = vec![index.to_string(), named(&animation.name), moves, format!("to {} s", number(animation.end()))];
+        Row { cells }
+    };
+    model.animations.iter().enumerate().map(row).collect()
 }
 
 fn bounds_text(bounds: &Aabb) -> String {

@@ -12,7 +12,9 @@ mod report;
 mod schema;
 mod stages;
 mod targets;
+mod wrap;
 
+use std::fmt::{self, Write as _};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -39,6 +41,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Check { spec, strict } => check::run(&spec, strict),
         Command::Explain(args) => explain::run(&args),
+        Command::Pick(args) => explain::pick(&args),
         Command::Info { model } => Model::load(&model, None).map(|m| print(&info_text(&m))),
         Command::Init { model, output } => init_command(&model, output.as_deref()),
         Command::Filters => {
@@ -46,7 +49,7 @@ pub fn run() -> ExitCode {
             Ok(())
         }
         Command::Schema => {
-            print(&(serde_json::to_string_pretty(&schema()).unwrap_or_default() + "\n"));
+            print_json(&schema());
             Ok(())
         }
     };
@@ -63,6 +66,28 @@ pub fn run() -> ExitCode {
 /// To standard output; a reader that went away (`| head`) is no error.
 fn print(text: &str) {
     let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+/// The same in lines that fit a terminal, as they come: there may be very many.
+fn print_wrapped(text: &impl fmt::Display) {
+    let mut out = Out(std::io::BufWriter::new(std::io::stdout().lock()));
+    let _ = write!(wrap::Wrapped::new(&mut out), "{text}");
+}
+
+/// The same for JSON, as it comes.
+fn print_json(value: &impl serde::Serialize) {
+    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+    let _ = serde_json::to_writer_pretty(&mut out, value);
+    let _ = out.write_all(b"\n").and_then(|()| out.flush());
+}
+
+/// Text goes to a file or a terminal as bytes.
+struct Out<W>(W);
+
+impl<W: Write> fmt::Write for Out<W> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.write_all(text.as_bytes()).map_err(|_| fmt::Error)
+    }
 }
 
 fn init_command(path: &Path, output: Option<&Path>) -> Result<(), InputError> {

@@ -9,5 +9,4 @@ mod render;
 mod shade;
 mod texture;
 
-pub use pixel::{Fragment, PixelReport, Removed, Visible};
 pub use render::Renderer;

@@ -13,43 +13,12 @@ use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
 use crate::lens::RayLayers;
+use crate::pixel::{Fragment, PixelReport, Survivor, Visible};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
 use crate::view::Ray;
 
 use moved::MovedLayers;
-pub use removed::Removed;
-
-/// A surface sample on a ray, classified.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fragment {
-    /// Into [`Plan::instances`].
-    pub instance: u32,
-    /// Into the item's triangles.
-    pub triangle: u32,
-    pub depth: f32,
-    /// Barycentric weights of the triangle's corners.
-    pub weights: Vec3,
-    /// The lenses around it (S) and those of them, or the rule, that act.
-    pub region: Region,
-}
-
-/// The visible fragment of a pixel (SEMANTICS 6.4).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Visible {
-    pub fragment: Fragment,
-    pub normal: Vec3,
-}
-
-/// What one pixel's ray met, for `explain`.
-#[derive(Debug, Clone)]
-pub struct PixelReport {
-    pub layers: RayLayers,
-    /// Every fragment between near and far that survives, nearest first, with its opacity and coverage, up to the
-    /// first opaque one.
-    pub fragments: Vec<(Fragment, f32, f32)>,
-    pub visible: Option<Visible>,
-}
 
 /// Traces rays through one plan.
 pub struct Tracer<'a> {
@@ -130,7 +99,7 @@ impl<'a> Tracer<'a> {
         glass.fold(front, |front, hit| over(front, hit.color.truncate(), hit.color.w))
     }
 
-    /// What is at a point of the picture, and how it came about.
+    /// What is at a point of the picture, without what lenses take away.
     pub fn report(&self, x: f64, y: f64, ranks: &[usize], scratch: &mut Scratch) -> PixelReport {
         let (ray, pixel) = self.rays(x, y);
         let opaque = self.trace(&ray, ranks, scratch);
@@ -145,7 +114,7 @@ impl<'a> Tracer<'a> {
             if opacity * coverage <= 0.0 {
                 continue;
             }
-            fragments.push((*fragment, opacity, coverage));
+            fragments.push(Survivor { fragment: *fragment, opacity, coverage });
             let here = Visible { fragment: *fragment, normal };
             if coverage >= 0.5 && opacity >= wgsl::OPAQUE_FROM.0 {
                 visible = Some(here);
@@ -155,7 +124,7 @@ impl<'a> Tracer<'a> {
                 visible = Some(here);
             }
         }
-        PixelReport { layers: scratch.layers.clone(), fragments, visible }
+        PixelReport { layers: scratch.layers.starts.clone(), fragments, visible, removed: Vec::new() }
     }
 
     /// Collects the surviving fragments that may be translucent, in front of the nearest that surely is opaque.

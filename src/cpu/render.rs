@@ -4,10 +4,12 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::geometry::Geometry;
-use super::pixel::{PixelReport, Removed, Scratch, Tracer, Visible};
+use super::pixel::{Scratch, Tracer};
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, RegionTable};
-use crate::lens::PixelRect;
+use crate::lens::{LayerStart, PixelRect, RayLayers};
+use crate::pick::Pick;
+use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -21,7 +23,14 @@ pub struct Renderer<'a> {
     geometry: Vec<Geometry>,
 }
 
-/// One tile's share of the picture.
+/// What is wanted of a picture.
+#[derive(Clone, Copy)]
+struct Wanted {
+    colors: bool,
+    maps: bool,
+}
+
+/// One tile's share of the picture; a list that is not wanted is empty.
 struct TileResult {
     rect: PixelRect,
     pixels: Vec<[u8; 4]>,
@@ -43,66 +52,106 @@ impl<'a> Renderer<'a> {
     /// pixels of each finished tile, from any thread.
     pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
         let size = self.plan.view.size;
-        let tracer = Tracer::new(self.scene, self.plan, &self.geometry);
-        let results: Vec<TileResult> = tiles(size)
+        let tiles = self.tiles(Wanted { colors: true, maps: aovs }, done);
+        let mut pixels = vec![[0; 4]; size[0] as usize * size[1] as usize];
+        for tile in &tiles {
+            for ((x, y), color) in pixels_of(&tile.rect).zip(&tile.pixels) {
+                pixels[(y * size[0] + x) as usize] = *color;
+            }
+        }
+        Frame { size, pixels, aovs: aovs.then(|| self.collect(&tiles)) }
+    }
+
+    /// What lies at the centre of each pixel, without the picture. `done` is called as by [`Renderer::render`].
+    pub fn maps(&self, done: &(dyn Fn(u64) + Sync)) -> Aovs {
+        self.collect(&self.tiles(Wanted { colors: false, maps: true }, done))
+    }
+
+    fn collect(&self, tiles: &[TileResult]) -> Aovs {
+        let size = self.plan.view.size;
+        let (mut maps, mut table) = (Aovs::empty(size), RegionTable::default());
+        for tile in tiles {
+            for ((x, y), center) in pixels_of(&tile.rect).zip(&tile.centers) {
+                self.store(&mut maps, &mut table, (y * size[0] + x) as usize, center);
+            }
+        }
+        maps.table = table.table;
+        maps
+    }
+
+    fn tiles(&self, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Vec<TileResult> {
+        let tracer = self.tracer();
+        tiles(self.plan.view.size)
             .into_par_iter()
             .map_init(Scratch::default, |scratch, rect| {
-                let result = self.tile(&tracer, rect, aovs, scratch);
+                let result = self.tile(&tracer, rect, wanted, scratch);
                 done(rect.area());
                 result
             })
-            .collect();
-        let count = size[0] as usize * size[1] as usize;
-        let mut pixels = vec![[0; 4]; count];
-        let mut maps = aovs.then(|| Aovs::empty(size));
-        let mut table = RegionTable::default();
-        for result in results {
-            for (i, (x, y)) in pixels_of(&result.rect).enumerate() {
-                let at = (y * size[0] + x) as usize;
-                pixels[at] = result.pixels[i];
-                if let Some(maps) = &mut maps {
-                    self.store(maps, &mut table, at, &result.centers[i]);
-                }
-            }
-        }
-        if let Some(maps) = &mut maps {
-            maps.table = table.table;
-        }
-        Frame { size, pixels, aovs: maps }
+            .collect()
     }
 
-    /// What the ray through a pixel's centre meets.
+    /// What the ray through a pixel's centre meets, with what lenses take away from it in front of the visible
+    /// fragment. For single pixels: it looks at every triangle.
     pub fn explain(&self, x: u32, y: u32) -> PixelReport {
-        let tracer = Tracer::new(self.scene, self.plan, &self.geometry);
-        let rect = PixelRect { min: [x, y], max: [x + 1, y + 1] };
-        tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks(&rect), &mut Scratch::default())
+        let mut report = self.report(x, y);
+        let end = report.visible.map_or(f32::INFINITY, |visible| visible.fragment.depth);
+        report.removed = self.tracer().removed(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks_at(x, y), end);
+        report
     }
 
-    /// What lenses take away from the ray through a pixel's centre before a depth, nearest first.
-    pub fn removed(&self, x: u32, y: u32, before: f32) -> Vec<Removed> {
-        let tracer = Tracer::new(self.scene, self.plan, &self.geometry);
-        let rect = PixelRect { min: [x, y], max: [x + 1, y + 1] };
-        tracer.removed(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks(&rect), before)
+    /// The same without what lenses take away, as fast as rendering the pixel.
+    pub fn report(&self, x: u32, y: u32) -> PixelReport {
+        let (ranks, mut scratch) = (self.ranks_at(x, y), Scratch::default());
+        self.tracer().report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, &mut scratch)
+    }
+
+    /// What is visible at a pixel; `None` where nothing is and outside the picture.
+    pub fn pick(&self, x: u32, y: u32) -> Option<Pick> {
+        let visible = self.plan.view.has_pixel([x, y]).then(|| self.report(x, y).visible)??;
+        Some(Pick::from_visible(self.plan, [x, y], &visible))
+    }
+
+    /// The layers of the rays through the pixel centres of a row, from left to right.
+    pub fn row_layers(&self, y: u32) -> Vec<Vec<LayerStart>> {
+        let view = &self.plan.view;
+        let layers = |x: u32| {
+            let volumes = self.ranks_at(x, y).into_iter().map(|rank| (rank, &self.plan.lenses[rank].volume));
+            let mut layers = RayLayers::default();
+            layers.find(volumes, &view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5), view.near, view.far);
+            layers.starts
+        };
+        (0..view.size[0]).map(layers).collect()
+    }
+
+    fn tracer(&self) -> Tracer<'_> {
+        Tracer::new(self.scene, self.plan, &self.geometry)
+    }
+
+    fn ranks_at(&self, x: u32, y: u32) -> Vec<usize> {
+        self.ranks(&PixelRect { min: [x, y], max: [x + 1, y + 1] })
     }
 
     fn ranks(&self, rect: &PixelRect) -> Vec<usize> {
         (0..self.plan.lenses.len()).filter(|rank| self.plan.lenses[*rank].rect.overlaps(rect)).collect()
     }
 
-    fn tile(&self, tracer: &Tracer, rect: PixelRect, aovs: bool, scratch: &mut Scratch) -> TileResult {
+    fn tile(&self, tracer: &Tracer, rect: PixelRect, wanted: Wanted, scratch: &mut Scratch) -> TileResult {
         let ranks = self.ranks(&rect);
         let side = f64::from(self.plan.samples).sqrt().round().max(1.0) as u32;
         let offset = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
         let mut result = TileResult { rect, pixels: Vec::new(), centers: Vec::new() };
         for (x, y) in pixels_of(&rect) {
-            let mut sum = Vec4::ZERO;
-            for (i, j) in (0..side).flat_map(|j| (0..side).map(move |i| (i, j))) {
-                sum += tracer.color(f64::from(x) + offset(i), f64::from(y) + offset(j), &ranks, scratch);
+            if wanted.colors {
+                let mut sum = Vec4::ZERO;
+                for (i, j) in (0..side).flat_map(|j| (0..side).map(move |i| (i, j))) {
+                    sum += tracer.color(f64::from(x) + offset(i), f64::from(y) + offset(j), &ranks, scratch);
+                }
+                result.pixels.push(self.finish(sum / (side * side) as f32));
             }
-            result.pixels.push(self.finish(sum / (side * side) as f32));
-            if aovs {
+            if wanted.maps {
                 let report = tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, scratch);
-                result.centers.push(Center { layers: report.layers.count() as u16, visible: report.visible });
+                result.centers.push(Center { layers: report.layers.len() as u16, visible: report.visible });
             }
         }
         result
@@ -125,6 +174,8 @@ impl<'a> Renderer<'a> {
         maps.layers[at] = center.layers;
         let Some(visible) = &center.visible else { return };
         maps.regions[at] = table.number(visible.fragment.region);
+        maps.instances[at] = visible.fragment.instance;
+        maps.triangles[at] = visible.fragment.triangle;
         let item = self.plan.instances[visible.fragment.instance as usize].item;
         maps.nodes[at] = self.plan.items[item].node as u32 + 1;
         maps.depth[at] = visible.fragment.depth;

@@ -3,9 +3,9 @@
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, g2, g3, g4, light, op, v2, v3, v4};
-use super::pixel::Fragment;
 use super::texture;
 use crate::appearance as wgsl;
+use crate::pixel::Fragment;
 use crate::plan::{Instance, Item, Plan};
 use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot};
 use crate::spec::By;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 use parry3d_f64::math::Vector;
 
 use super::{Form, MeshSolid, Plane};
@@ -26,26 +26,20 @@ pub struct Hull {
 
 impl Hull {
     pub fn of(points: &[DVec3]) -> Result<Self, FlatPoints> {
-        let input: Vec<Vector> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-        let (vertices, triangles) = parry3d_f64::transformation::try_convex_hull(&input).map_err(|_| FlatPoints)?;
-        let vertices: Vec<DVec3> = vertices.iter().map(|p| DVec3::new(p.x, p.y, p.z)).collect();
+        let points_from_cube = own_cube(points)?;
+        let into_cube = points_from_cube.inverse();
+        let input = points.iter().map(|p| into_cube.transform_point3(*p)).map(|p| Vector::new(p.x, p.y, p.z));
+        let (vertices, triangles) =
+            parry3d_f64::transformation::try_convex_hull(&input.collect::<Vec<_>>()).map_err(|_| FlatPoints)?;
+        let vertices: Vec<DVec3> =
+            vertices.iter().map(|p| points_from_cube.transform_point3(DVec3::new(p.x, p.y, p.z))).collect();
         let size = Aabb::from_points(vertices.iter().copied()).size().max_element();
-        let hull = Self { vertices, triangles, size };
-        if hull.thickness() <= 1e-7 * size { Err(FlatPoints) } else { Ok(hull) }
+        Ok(Self { vertices, triangles, size })
     }
 
     fn normal(&self, triangle: &[u32; 3]) -> DVec3 {
         let [a, b, c] = triangle.map(|i| self.vertices[i as usize]);
         (b - a).cross(c - a)
-    }
-
-    /// The extent across the largest triangle: what is flat is flat along it.
-    fn thickness(&self) -> f64 {
-        let normals = self.triangles.iter().map(|t| self.normal(t));
-        let Some(normal) = normals.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else { return 0.0 };
-        let heights = self.vertices.iter().map(|v| normal.normalize_or_zero().dot(*v));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        high - low
     }
 
     /// One plane for each face, coplanar triangles sharing one; `None` for more than `most`.
@@ -70,6 +64,25 @@ impl Hull {
         }
         Some(planes)
     }
+}
+
+/// An affine map from the cube from -1 to 1 which the points fill along its axes. In it nothing is thin: the library
+/// takes what is a thousand times as wide as thick for a polygon.
+fn own_cube(points: &[DVec3]) -> Result<DAffine3, FlatPoints> {
+    let first = *points.first().ok_or(FlatPoints)?;
+    let farthest = |height: &dyn Fn(DVec3) -> DVec3| {
+        let offsets = points.iter().map(|p| height(*p - first));
+        offsets.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or_default().normalize_or_zero()
+    };
+    let x = farthest(&|offset| offset);
+    let y = farthest(&|offset| offset - x * offset.dot(x));
+    let axes = DMat3::from_cols(x, y, x.cross(y));
+    let bounds = Aabb::from_points(points.iter().map(|p| axes.transpose() * *p));
+    let half = bounds.size() * 0.5;
+    if half.min_element() <= 1e-7 * half.max_element() {
+        return Err(FlatPoints);
+    }
+    Ok(DAffine3::from_mat3_translation(axes * DMat3::from_diagonal(half), axes * bounds.center()))
 }
 
 /// The hull of points as a form, and the space of the points from the form's.
@@ -110,6 +123,19 @@ mod tests {
         let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.3, 0.4]].map(|[x, y]| DVec3::new(x, y, 0.0));
         assert_eq!(hull_form(&points).map(drop), Err(FlatPoints));
         assert_eq!(hull_form(&[DVec3::ONE; 5]).map(drop), Err(FlatPoints));
+    }
+
+    #[test]
+    fn a_thin_hull_keeps_its_corners() {
+        for thickness in [1e-2, 1e-4, 1e-6] {
+            let at = |i: i32| DVec3::new(f64::from(i % 7), f64::from(i / 7), 0.0);
+            let points: Vec<DVec3> = (0..49).map(at).map(|p| p + DVec3::Z * p.length_squared() * thickness).collect();
+            let (form, pose) = hull_form(&points).unwrap();
+            let lifted =
+                |p: DVec3, by: f64| form.contains(pose.inverse().transform_point3(p + DVec3::Z * by * thickness));
+            assert!(points.iter().all(|p| lifted(p.lerp(DVec3::new(3.0, 3.0, 20.0 * thickness), 1e-6), 0.0)));
+            assert!(points.iter().all(|p| !lifted(*p, -0.01)), "below the bowl, {thickness}");
+        }
     }
 
     #[test]

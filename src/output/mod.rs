@@ -8,4 +8,4 @@ mod regions;
 pub use aov::{Aov, write_aov};
 pub use file::write_whole;
 pub use png::write_picture;
-pub use regions::{Actor, Entry, FoundRegion, RegionMap, stack};
+pub use regions::{Actor, Entry, FoundRegion, RegionMap, numbered, stack};

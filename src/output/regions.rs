@@ -1,6 +1,8 @@
 //! The region AOV: which region each pixel's visible fragment lies in, and what acts there.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+
+use serde::Serialize;
 
 use crate::InputError;
 use crate::frame::Aovs;
@@ -21,15 +23,17 @@ pub struct FoundRegion {
     pub stack: Vec<Entry>,
 }
 
-/// A filter that acts in a region.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A filter that acts in a region; as JSON with `lens` or `rule` beside `filter`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Entry {
+    #[serde(flatten)]
     pub by: Actor,
     pub filter: &'static str,
 }
 
 /// Whose filter it is.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Actor {
     Lens(String),
     /// The n-th `[[overlap]]`, from 0.
@@ -45,28 +49,20 @@ pub struct RegionMap {
 }
 
 impl RegionMap {
-    /// Numbers the regions of a picture in the order of their sorted lens names; an error where 16 bits do not
-    /// tell them apart.
-    pub fn new(plan: &Plan, aovs: &Aovs) -> Result<Self, InputError> {
-        let mut named: Vec<(Vec<&str>, Region)> = aovs.table.iter().map(|r| (plan.names(r.set), *r)).collect();
-        named.retain(|(_, region)| *region != Region::PLAIN);
-        if named.len() >= usize::from(NOTHING) {
-            let message =
-                format!("the picture has {} regions, and a region map tells {} apart", named.len(), NOTHING - 1);
+    /// Numbers the regions of a picture and those that `known` adds; an error where 16 bits do not tell them apart.
+    pub fn new(plan: &Plan, known: &[Region], aovs: &Aovs) -> Result<Self, InputError> {
+        let numbered = numbered(plan, known.iter().chain(&aovs.table));
+        if numbered.len() >= usize::from(NOTHING) {
+            let message = format!("{} regions occur, and a region map tells {} apart", numbered.len(), NOTHING - 1);
             return Err(InputError::new(message).help("leave out `--aov region`"));
         }
-        named.sort();
-        let outside = usize::from(named.first().is_some_and(|(_, region)| region.set.is_empty()));
-        let regions: Vec<FoundRegion> = named
-            .into_iter()
-            .enumerate()
-            .map(|(place, (names, region))| FoundRegion {
-                id: (place + 1 - outside) as u16,
-                region,
-                lenses: names.into_iter().map(String::from).collect(),
-                stack: stack(plan, region),
-            })
-            .collect();
+        let found = |(id, region): (usize, Region)| FoundRegion {
+            id: id as u16,
+            region,
+            lenses: plan.names(region.set).into_iter().map(String::from).collect(),
+            stack: stack(plan, region),
+        };
+        let regions: Vec<FoundRegion> = numbered.into_iter().map(found).collect();
         let number: HashMap<Region, u16> = regions.iter().map(|r| (r.region, r.id)).collect();
         let of_table: Vec<u16> = aovs.table.iter().map(|r| number.get(r).copied().unwrap_or(0)).collect();
         let id = |index: &u32| of_table.get(*index as usize).copied().unwrap_or(NOTHING);
@@ -90,10 +86,7 @@ impl RegionMap {
 
 impl Entry {
     pub fn json(&self) -> serde_json::Value {
-        match &self.by {
-            Actor::Lens(name) => serde_json::json!({ "lens": name, "filter": self.filter }),
-            Actor::Rule(number) => serde_json::json!({ "rule": number, "filter": self.filter }),
-        }
+        serde_json::json!(self)
     }
 }
 
@@ -104,6 +97,16 @@ impl std::fmt::Display for Entry {
             Actor::Rule(number) => write!(f, "rule {number}.{}", self.filter),
         }
     }
+}
+
+/// Regions in the order of their sorted lens names, numbered from 1; 0 is outside all lenses, and only there where a
+/// rule acts.
+pub fn numbered<'a>(plan: &Plan, regions: impl Iterator<Item = &'a Region>) -> Vec<(usize, Region)> {
+    let distinct: HashSet<Region> = regions.copied().filter(|region| *region != Region::PLAIN).collect();
+    let mut named: Vec<(Vec<&str>, Region)> = distinct.into_iter().map(|r| (plan.names(r.set), r)).collect();
+    named.sort();
+    let outside = usize::from(named.first().is_some_and(|(_, region)| region.set.is_empty()));
+    named.into_iter().enumerate().map(|(place, (_, region))| (place + 1 - outside, region)).collect()
 }
 
 /// Every filter that acts in a region, content filters too, lowest first.

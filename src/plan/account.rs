@@ -4,7 +4,7 @@ use super::{LensSet, Plan, Reason, Reasons, Region, commute};
 use crate::spec::Spec;
 
 /// Two lenses whose order matters and that only the order of the file separates.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Undecided {
     pub below: String,
     pub above: String,
@@ -28,62 +28,6 @@ impl Account {
         let undecided = undecided(plan, &regions, &reasons);
         let order = (1..plan.lenses.len()).map(|rank| reasons.between(rank - 1, rank).as_ref().clone()).collect();
         Self { regions, undecided, order }
-    }
-
-    /// The account as text, with the lines of the spec.
-    pub fn text(&self, spec: &Spec, plan: &Plan) -> String {
-        let mut text = String::from("order, lowest first\n");
-        for (rank, lens) in plan.lenses.iter().enumerate() {
-            let line = spec.source.line(spec.lenses[lens.index].name.span.start);
-            let filters: Vec<&str> = lens.filter_names().collect();
-            text += &format!("  {}. {} (line {line}): {}", rank + 1, lens.name, filters.join(", "));
-            if lens.overrides {
-                text += "; overrides all below";
-            } else if !lens.hides.is_empty() {
-                text += &format!("; hides {}", plan.names(lens.hides).join(", "));
-            }
-            text += "\n";
-            if rank > 0 {
-                text += &format!("       above {}: {}\n", plan.lenses[rank - 1].name, self.order[rank - 1]);
-            }
-        }
-        if plan.lenses.is_empty() {
-            text += "  no lens is enabled\n";
-        }
-        text += &self.regions_text(spec, plan);
-        text += &self.undecided_text();
-        for warning in &plan.warnings {
-            text += &format!("warning: {warning}\n");
-        }
-        text
-    }
-
-    fn regions_text(&self, spec: &Spec, plan: &Plan) -> String {
-        let reasons = Reasons::new(spec, plan);
-        let mut text = format!("regions that occur: {}\n", self.regions.len());
-        let name = |rank: usize| match plan.rule_of(rank) {
-            Some(rule) => format!("rule in line {}", spec.source.line(spec.overlaps[rule].when.span.start)),
-            None => plan.lenses[rank].name.clone(),
-        };
-        let acting = |rank| format!("{} ({})", name(rank), plan.filter_names(rank).collect::<Vec<_>>().join(", "));
-        let acting: Vec<String> = (0..plan.lenses.len() + plan.rules.len()).map(acting).collect();
-        for region in &self.regions {
-            let stack: Vec<&str> = region.stack.iter().map(|rank| acting[rank].as_str()).collect();
-            let lenses = if region.set.is_empty() { "no lens".into() } else { plan.names(region.set).join(" + ") };
-            text += &format!("  {lenses}\n      stack: {}\n", stack.join(" < "));
-            text += &reasons.lines(region, "      ");
-        }
-        text
-    }
-
-    /// One paragraph a pair, or nothing.
-    pub fn undecided_text(&self) -> String {
-        self.undecided
-            .iter()
-            .map(|u| {
-                format!("undecided: only the order of the file puts {} below {}: {}\n", u.below, u.above, u.remedy)
-            })
-            .collect()
     }
 }
 

@@ -56,7 +56,10 @@ pub fn commute(a: &super::Lens, b: &super::Lens) -> bool {
     if a.overrides || b.overrides || a.moves || b.moves {
         return false;
     }
-    a.filters.iter().all(|f| b.filters.iter().all(|g| filters_commute(f, g)))
+    // Inversions by different amounts, as near a soft boundary, do not commute.
+    let faded = a.soft > 0.0 || b.soft > 0.0;
+    let inverts = |f: &Filter| matches!(f, Filter::Invert { .. });
+    a.filters.iter().all(|f| b.filters.iter().all(|g| filters_commute(f, g) && !(faded && inverts(f) && inverts(g))))
 }
 
 /// What a filter writes; two that write the same thing differently do not commute.

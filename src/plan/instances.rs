@@ -52,6 +52,11 @@ impl Instance {
         !self.steps.is_empty()
     }
 
+    /// Where what is shown at a point stands in the scene. World space.
+    pub fn place_of(&self, shown: DVec3) -> DVec3 {
+        if self.is_moved() { self.shown_from_world.inverse().transform_point3(shown) } else { shown }
+    }
+
     /// From a shown point to where a filter of the lens of this rank acts. `inner`: the filter stands before those of
     /// its own lens that move.
     pub fn source_from_shown(&self, rank: usize, inner: bool) -> DAffine3 {

@@ -5,6 +5,11 @@ use crate::spec::{At, Filter, Matches, Pattern, Spec};
 
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
     let mut warnings: Vec<String> = scene.models.iter().flat_map(|m| m.warnings.iter().cloned()).collect();
+    if let Some(time) = spec.scene.time.as_ref().filter(|_| !moves(scene)) {
+        let line = spec.source.line(time.span.start);
+        warnings
+            .push(format!("{}:{line}: `time` changes nothing: no node of the models is animated", spec.source.name));
+    }
     let mut check = |place: String, patterns: &[At<Pattern>], known: &dyn Fn(&Pattern) -> bool| {
         for pattern in patterns.iter().filter(|p| !known(&p.value)) {
             let line = spec.source.line(pattern.span.start);
@@ -32,6 +37,10 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
         }
     }
     warnings
+}
+
+fn moves(scene: &Scene) -> bool {
+    scene.models.iter().flat_map(|model| &model.animations).any(|animation| !animation.channels.is_empty())
 }
 
 fn has_node(model: &Model, pattern: &Pattern) -> bool {

@@ -2,15 +2,20 @@
 //!
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
+mod animation;
 mod lens_meshes;
 mod load;
 mod materials;
 mod model;
 mod names;
 mod open;
+mod pose;
 mod textures;
 
+pub use animation::{Animation, Channel, Interpolation, Property};
+use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
 pub use open::Scene;
+pub use pose::Transform;
 pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet, decode_table};

@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
+use super::{Animation, Transform};
+
 /// One glTF file, with one of its scenes chosen. Indices are those of the file.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
@@ -17,6 +19,8 @@ pub struct Model {
     pub images: Vec<Image>,
     pub lights: Vec<Light>,
     pub cameras: Vec<Camera>,
+    /// Those of the file, in its order; see [`Model::pose`].
+    pub animations: Vec<Animation>,
     /// Names of the file's scenes and which one is shown.
     pub scenes: Vec<Option<String>>,
     pub scene: usize,
@@ -32,6 +36,9 @@ pub struct Node {
     pub name: String,
     pub parent: Option<usize>,
     pub children: Vec<usize>,
+    /// Its place in its parent when nothing is animated.
+    pub rest: Transform,
+    /// As the model was last posed.
     pub world_from_local: DAffine3,
     pub mesh: Option<usize>,
     pub camera: Option<usize>,
@@ -299,6 +306,20 @@ impl Model {
         images.dedup();
         images
     }
+
+    /// A node's name, or `node N` where the file gives none.
+    pub fn node_label(&self, node: usize) -> String {
+        or_number(&self.nodes[node].name, "node", node)
+    }
+
+    /// A material's name, or `material N` where the file gives none.
+    pub fn material_label(&self, material: usize) -> String {
+        or_number(&self.materials[material].name, "material", material)
+    }
+}
+
+fn or_number(name: &str, kind: &str, number: usize) -> String {
+    if name.is_empty() { format!("{kind} {number}") } else { name.to_string() }
 }
 
 impl Primitive {

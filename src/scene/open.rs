@@ -46,6 +46,9 @@ impl Scene {
             models.push(load(&path.value, None, &path.span)?);
         }
         let mut scene = Self::new(models, spec.scene.alternates.iter().map(|(name, _)| name.clone()).collect());
+        if let Some(time) = &spec.scene.time {
+            scene.pose(Some(time.value)).map_err(|e| e.or_at(&spec.source, time.span.clone()))?;
+        }
         let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
         for filter in filters {
             if let Filter::Texture { file, .. } = &filter.value {

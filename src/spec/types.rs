@@ -56,6 +56,8 @@ pub struct SceneSpec {
     /// Resolved against the spec file's folder.
     pub file: At<PathBuf>,
     pub scene: Option<At<SceneChoice>>,
+    /// Seconds into the animations of all models; `None`: the rest pose.
+    pub time: Option<At<f64>>,
     pub hide: Vec<At<Pattern>>,
     pub backfaces: Backfaces,
     /// In file order; names are unique.

@@ -58,7 +58,7 @@ fn check_order(opened: &Opened, expected: &Expected) -> Result<(), String> {
 /// The stacks of all regions that both have found.
 fn check_stacks(opened: &Opened, frame: &Frame, expected: &Expected) -> Result<(), String> {
     let aovs = frame.aovs.as_ref().ok_or("the picture has no AOVs")?;
-    for region in RegionMap::new(&opened.plan, aovs).map_err(|e| e.to_string())?.regions {
+    for region in RegionMap::new(&opened.plan, &[], aovs).map_err(|e| e.to_string())?.regions {
         let got: Vec<serde_json::Value> = region.stack.iter().map(|entry| entry.json()).collect();
         if let Some(want) = expected.stacks.get(&region.region.set).filter(|want| **want != got) {
             return Err(format!("the stack of {}: {want:?} is wanted, {got:?} is there", region.lenses.join(" + ")));

@@ -40,8 +40,8 @@ impl Expected {
             table: table.regions.clone(),
             nodes: gray16(&folder.join("node.png"))?.1.into_iter().map(u32::from).collect(),
             depth: npy::read_f32(&folder.join("depth.npy"), size)?,
-            normals: Vec::new(),
             layers: gray16(&folder.join("layers.png"))?.1,
+            ..Aovs::default()
         };
         let doubt = decoded(&folder.join("doubt.png"))?.into_luma8().into_raw();
         let known = decoded(&folder.join("color_known.png"))?.into_luma8().into_raw();

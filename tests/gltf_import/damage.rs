@@ -34,6 +34,10 @@ fn rich() -> Vec<u8> {
     let parts = json!({"children": [0], "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}});
     let top = doc.push("nodes", parts);
     doc.json["scenes"][0]["nodes"] = json!([top]);
+    let (input, output) = (doc.floats(&[[0.0f32], [1.0]]), doc.floats(&[[0.0; 3]; 6]));
+    let sampler = json!({"input": input, "output": output, "interpolation": "CUBICSPLINE"});
+    let channel = json!({"sampler": 0, "target": {"node": top, "path": "translation"}});
+    doc.push("animations", json!({"samplers": [sampler], "channels": [channel]}));
     doc.glb()
 }
 
@@ -58,6 +62,10 @@ fn keeps_promises(model: &Model) {
         assert!(node.mesh.is_none_or(|m| m < model.meshes.len()));
     }
     assert!(model.images.iter().all(|i| i.pixels.len() as u64 == u64::from(i.width) * u64::from(i.height)));
+    let mut moved = model.clone();
+    if moved.pose(Some(0.5)).is_ok() {
+        assert!(moved.nodes.iter().all(|node| node.world_from_local.is_finite()));
+    }
     let _ = lenspeel::cli::info_text(model);
     let _ = lenspeel::cli::init_text(model, "model.glb");
 }

@@ -5,6 +5,7 @@ mod damage;
 mod errors;
 #[path = "../support/gltf.rs"]
 mod gltf;
+mod motion;
 mod shared;
 mod small;
 mod texts;

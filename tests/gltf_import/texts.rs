@@ -29,6 +29,10 @@ fn machine() -> Model {
         .collect();
     doc.node(json!({"name": "Bolts", "children": bolts, "scale": [0.03, 0.03, 0.03]}));
     doc.node(json!({"name": "View", "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}));
+    let (input, output) = (doc.floats(&[[0.5f32], [2.5]]), doc.floats(&[[0.0; 3], [1.0; 3]]));
+    let targets = [housing, 101, housing].map(|node| json!({"sampler": 0, "target": {"node": node, "path": "scale"}}));
+    let sampler = json!({"input": input, "output": output});
+    doc.push("animations", json!({"name": "Breathe", "samplers": [sampler], "channels": targets}));
     let spare = doc.push("nodes", json!({"name": "Spare", "mesh": 0}));
     doc.json["scenes"][0]["name"] = json!("Assembly");
     doc.push("scenes", json!({"name": "Store", "nodes": [spare]}));

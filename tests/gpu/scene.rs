@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 use lenspeel::plan::Plan;
-use lenspeel::scene::{AlphaMode, Material, Mesh, Model, Node, Primitive, Scene};
+use lenspeel::scene::{AlphaMode, Material, Mesh, Model, Node, Primitive, Scene, Transform};
 use lenspeel::spec::Spec;
 
 /// How many half-transparent panes hang in the scene.
@@ -44,11 +44,13 @@ fn model() -> Model {
 
 fn add(model: &mut Model, name: &str, mut primitive: Primitive, at: DVec3, material: usize) {
     primitive.material = material;
+    let place = DAffine3::from_translation(at);
     model.nodes.push(Node {
         name: name.into(),
         parent: None,
         children: vec![],
-        world_from_local: DAffine3::from_translation(at),
+        rest: Transform::Matrix(place),
+        world_from_local: place,
         mesh: Some(model.meshes.len()),
         camera: None,
         light: None,

@@ -2,9 +2,12 @@
 
 mod agreement;
 mod camera;
+mod compound;
 mod edges;
 mod facets;
+mod inside;
 mod layers;
+mod mesh;
 #[path = "../support/random.rs"]
 mod random;
 mod rects;

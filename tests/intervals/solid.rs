@@ -275,7 +275,7 @@ pub fn placement(random: &mut Random, view: &View) -> Placement {
     }
 }
 
-fn shape(kind: &str, random: &mut Random) -> Shape {
+pub fn shape(kind: &str, random: &mut Random) -> Shape {
     let center = point(random, 1.0);
     let (from, to) = (center.to_array(), (center + direction(random) * random.between(0.3, 2.0)).to_array());
     let radius = random.between(0.2, 1.2);

@@ -11,7 +11,7 @@ const PLAIN: char = '-';
 
 /// Every n-th pixel of the map, from the middle of the first n, and what the letters mean.
 pub fn of(plan: &Plan, size: [u32; 2], aovs: &Aovs) -> String {
-    let map = RegionMap::new(plan, aovs).expect("few regions");
+    let map = RegionMap::new(plan, &[], aovs).expect("few regions");
     let [width, height] = size.map(|side| side as usize);
     let (across, down) = (width.div_ceil(MOST[0]), height.div_ceil(MOST[1]));
     let mut text = String::new();

@@ -55,11 +55,11 @@ struct Makeup {
 /// Edges that the maps do not show: those of translucent surfaces, and of lens surfaces that other things cut.
 fn hidden_edges(renderer: &cpu::Renderer, size: [u32; 2]) -> Mask {
     let makeup = |at: u32| {
-        let report = renderer.explain(at % size[0], at / size[0]);
+        let report = renderer.report(at % size[0], at / size[0]);
         let end = report.visible.map_or(f64::INFINITY, |visible| f64::from(visible.fragment.depth));
         Makeup {
-            fragments: report.fragments.iter().map(|(f, ..)| (f.instance, f.region)).collect(),
-            boundaries: report.layers.starts.iter().filter(|start| start.depth < end).map(|s| s.set).collect(),
+            fragments: report.fragments.iter().map(|f| (f.fragment.instance, f.fragment.region)).collect(),
+            boundaries: report.layers.iter().filter(|start| start.depth < end).map(|s| s.set).collect(),
         }
     };
     let makeups: Vec<Makeup> = (0..size[0] * size[1]).map(makeup).collect();

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glam::{DAffine3, DVec3, Vec3};
 use lenspeel::plan::Plan;
-use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Scene};
+use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Scene, Transform};
 use lenspeel::spec::Spec;
 
 use crate::random::Random;
@@ -260,11 +260,13 @@ fn model(rows: &[NodeRow]) -> Model {
     model.materials = MATERIALS.iter().map(|name| Material { name: name.to_string(), ..Material::default() }).collect();
     model.materials.push(Material::default());
     for (index, (name, parent, material)) in rows.iter().enumerate() {
+        let place = |steps: usize| DAffine3::from_translation(DVec3::X * NODE_STEP * steps as f64);
         model.nodes.push(Node {
             name: name.to_string(),
             parent: *parent,
             children: (0..rows.len()).filter(|i| rows[*i].1 == Some(index)).collect(),
-            world_from_local: DAffine3::from_translation(DVec3::X * NODE_STEP * index as f64),
+            rest: Transform::Matrix(place(index - parent.unwrap_or(0))),
+            world_from_local: place(index),
             mesh: material.map(|_| model.meshes.len()),
             camera: None,
             light: None,

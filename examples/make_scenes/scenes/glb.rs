@@ -194,6 +194,7 @@ impl Glb {
             name: name.to_owned(),
             children: Vec::new(),
             mesh: place.mesh,
+            camera: None,
             translation: (place.at != DVec3::ZERO).then(|| short(place.at.to_array())),
             rotation: place.turn.map(|m| short(det::quaternion(m))),
             scale: place.scale.map(|s| short(s.to_array())),
@@ -213,6 +214,37 @@ impl Glb {
         self.json.nodes[node].extensions = Some(NodeLights { lights: LightRef { light: lights.lights.lights.len() } });
         lights.lights.lights.push(light);
         self.json.extensions_used = vec!["KHR_lights_punctual"];
+    }
+
+    /// A node with a camera that looks along its -z.
+    pub fn camera(&mut self, name: &str, place: Place, yfov: f64) -> usize {
+        let node = self.node(name, place);
+        self.json.nodes[node].camera = Some(self.json.cameras.len());
+        self.json.cameras.push(CameraJson { kind: "perspective", perspective: Perspective { yfov, znear: 0.1 } });
+        node
+    }
+
+    pub fn animation(&mut self, name: &'static str) {
+        self.json.animations.push(AnimationJson { name, samplers: Vec::new(), channels: Vec::new() });
+    }
+
+    /// Adds a channel to the last animation: `values` at `times` in seconds, three a time for a `CUBICSPLINE`.
+    pub fn channel<const N: usize>(
+        &mut self,
+        node: usize,
+        path: &'static str,
+        interpolation: &'static str,
+        times: &[f32],
+        values: &[[f32; N]],
+    ) {
+        let input = self.floats(&times.iter().map(|t| [*t]).collect::<Vec<_>>(), "SCALAR", None);
+        self.json.accessors[input].min = times.first().map(|t| vec![*t]);
+        self.json.accessors[input].max = times.last().map(|t| vec![*t]);
+        let output = self.floats(values, if N == 3 { "VEC3" } else { "VEC4" }, None);
+        let animation = self.json.animations.last_mut().expect("an animation to add to");
+        let sampler = animation.samplers.len();
+        animation.samplers.push(SamplerJson { input, output, interpolation });
+        animation.channels.push(ChannelJson { sampler, target: Target { node, path } });
     }
 
     /// The bytes of the file.
@@ -235,28 +267,28 @@ impl Glb {
 
     fn primitive(&mut self, mesh: &Mesh, material: usize) -> PrimitiveJson {
         let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect();
-        let position = self.floats(&positions, "VEC3");
+        let position = self.floats(&positions, "VEC3", Some(VERTICES));
         let (min, max) = bounds(&positions);
-        self.json.accessors[position].min = Some(min);
-        self.json.accessors[position].max = Some(max);
+        self.json.accessors[position].min = Some(min.to_vec());
+        self.json.accessors[position].max = Some(max.to_vec());
         let normals: Vec<[f32; 3]> = mesh.normals.iter().map(|n| n.as_vec3().to_array()).collect();
         let uv: Vec<[f32; 2]> = mesh.uv.iter().map(|t| t.as_vec2().to_array()).collect();
         let attributes = Attributes {
             position,
-            normal: (!normals.is_empty()).then(|| self.floats(&normals, "VEC3")),
-            texcoord: (!uv.is_empty()).then(|| self.floats(&uv, "VEC2")),
+            normal: (!normals.is_empty()).then(|| self.floats(&normals, "VEC3", Some(VERTICES))),
+            texcoord: (!uv.is_empty()).then(|| self.floats(&uv, "VEC2", Some(VERTICES))),
             color: (!mesh.colors.is_empty()).then(|| self.colors(&mesh.colors)),
         };
         PrimitiveJson { attributes, indices: self.indices(mesh), material }
     }
 
-    fn floats<const N: usize>(&mut self, values: &[[f32; N]], kind: &'static str) -> usize {
+    fn floats<const N: usize>(&mut self, values: &[[f32; N]], kind: &'static str, target: Option<u32>) -> usize {
         let bytes: Vec<u8> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
-        self.accessor(&bytes, VERTICES, FLOAT, values.len(), kind)
+        self.accessor(&bytes, target, FLOAT, values.len(), kind)
     }
 
     fn colors(&mut self, values: &[[u8; 4]]) -> usize {
-        let accessor = self.accessor(values.as_flattened(), VERTICES, U8, values.len(), "VEC4");
+        let accessor = self.accessor(values.as_flattened(), Some(VERTICES), U8, values.len(), "VEC4");
         self.json.accessors[accessor].normalized = Some(true);
         accessor
     }
@@ -270,11 +302,18 @@ impl Glb {
         } else {
             indices.iter().flat_map(|i| i.to_le_bytes()).collect()
         };
-        self.accessor(&bytes, INDICES, if narrow { U16 } else { U32 }, indices.len(), "SCALAR")
+        self.accessor(&bytes, Some(INDICES), if narrow { U16 } else { U32 }, indices.len(), "SCALAR")
     }
 
-    fn accessor(&mut self, bytes: &[u8], target: u32, component: u32, count: usize, kind: &'static str) -> usize {
-        let buffer_view = self.view(bytes, Some(target));
+    fn accessor(
+        &mut self,
+        bytes: &[u8],
+        target: Option<u32>,
+        component: u32,
+        count: usize,
+        kind: &'static str,
+    ) -> usize {
+        let buffer_view = self.view(bytes, target);
         self.json.accessors.push(AccessorJson {
             buffer_view,
             component_type: component,

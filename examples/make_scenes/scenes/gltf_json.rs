@@ -23,6 +23,10 @@ pub struct Document {
     pub images: Vec<ImageJson>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub samplers: Vec<Sampling>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cameras: Vec<CameraJson>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub animations: Vec<AnimationJson>,
     pub accessors: Vec<AccessorJson>,
     pub buffer_views: Vec<ViewJson>,
     pub buffers: Vec<BufferJson>,
@@ -42,6 +46,8 @@ impl Default for Document {
             textures: Vec::new(),
             images: Vec::new(),
             samplers: Vec::new(),
+            cameras: Vec::new(),
+            animations: Vec::new(),
             accessors: Vec::new(),
             buffer_views: Vec::new(),
             buffers: Vec::new(),
@@ -67,6 +73,8 @@ pub struct NodeJson {
     pub children: Vec<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub translation: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -167,6 +175,46 @@ pub struct ImageJson {
 }
 
 #[derive(Serialize)]
+pub struct CameraJson {
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    pub perspective: Perspective,
+}
+
+/// Radians and scene units.
+#[derive(Serialize)]
+pub struct Perspective {
+    pub yfov: f64,
+    pub znear: f64,
+}
+
+#[derive(Serialize)]
+pub struct AnimationJson {
+    pub name: &'static str,
+    pub samplers: Vec<SamplerJson>,
+    pub channels: Vec<ChannelJson>,
+}
+
+#[derive(Serialize)]
+pub struct SamplerJson {
+    pub input: usize,
+    pub output: usize,
+    pub interpolation: &'static str,
+}
+
+#[derive(Serialize)]
+pub struct ChannelJson {
+    pub sampler: usize,
+    pub target: Target,
+}
+
+#[derive(Serialize)]
+pub struct Target {
+    pub node: usize,
+    pub path: &'static str,
+}
+
+#[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct AccessorJson {
     pub buffer_view: usize,
@@ -177,9 +225,9 @@ pub struct AccessorJson {
     #[serde(rename = "type")]
     pub kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub min: Option<[f32; 3]>,
+    pub min: Option<Vec<f32>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub max: Option<[f32; 3]>,
+    pub max: Option<Vec<f32>>,
 }
 
 #[derive(Serialize)]

@@ -20,6 +20,7 @@ pub fn all() -> Vec<Generated> {
         Generated { name: "lights.glb", bytes: lights() },
         Generated { name: "vertex-colors.glb", bytes: vertex_colors() },
         Generated { name: "cutout.glb", bytes: cutout() },
+        Generated { name: "motion.glb", bytes: motion() },
     ]
 }
 
@@ -204,5 +205,32 @@ fn cutout() -> Vec<u8> {
     look.alpha = Alpha::Mask(0.5);
     add(&mut glb, look, &quad(dvec2(2.0, 2.0)), DVec3::ZERO);
     add(&mut glb, plain("ball", 0xe0_7a3c), &ball(0.7, 32, 16), dvec3(0.0, 0.0, -1.0));
+    glb.finish()
+}
+
+/// Two animations of two seconds before a wall: an arm with a ball at its end makes a half turn about the z axis, a box
+/// slides to the right on a curve and changes its size, and a camera moves to the right.
+fn motion() -> Vec<u8> {
+    let mut glb = Glb::default();
+    add(&mut glb, plain("wall", 0xb8_b4a8), &cuboid(dvec3(0.0, 0.0, -0.6), dvec3(4.0, 3.0, 0.2)), DVec3::ZERO);
+    let paints = [("steel", 0x6f_8fb0), ("rubber", 0xe0_7a3c), ("wood", 0x8a_6a40)]
+        .map(|(name, hex)| glb.material(plain(name, hex)));
+    let bar = glb.mesh("arm", &cuboid(dvec3(0.45, 0.0, 0.0), dvec3(0.9, 0.12, 0.12)), paints[0]);
+    let arm = glb.node("arm", Place::mesh(bar).at(-0.6, 0.2, 0.0));
+    let globe = glb.mesh("ball", &ball(0.25, 28, 14), paints[1]);
+    glb.node("ball", Place::mesh(globe).under(arm).at(0.9, 0.0, 0.0));
+    let block = glb.mesh("box", &cuboid(DVec3::ZERO, DVec3::splat(0.5)), paints[2]);
+    let slider = glb.node("box", Place::mesh(block).at(-1.4, -0.9, 0.0));
+    let eye = glb.camera("eye", Place::default().at(-1.0, 0.4, 4.0), 0.7);
+    glb.animation("swing");
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let turns = [[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, half, half], [0.0, 0.0, 1.0, 0.0]];
+    glb.channel(arm, "rotation", "LINEAR", &[0.0, 1.0, 2.0], &turns);
+    glb.channel(eye, "translation", "LINEAR", &[0.0, 2.0], &[[-1.0, 0.4, 4.0], [1.0, 0.4, 4.0]]);
+    glb.animation("slide");
+    let (still, right) = ([0.0; 3], [1.4, 0.0, 0.0]);
+    let keys = [still, [-1.4, -0.9, 0.0], still, right, [0.0, -0.9, 0.4], right, still, [1.4, -0.9, 0.0], still];
+    glb.channel(slider, "translation", "CUBICSPLINE", &[0.0, 1.0, 2.0], &keys);
+    glb.channel(slider, "scale", "STEP", &[0.0, 1.0, 2.0], &[[1.0; 3], [1.0, 1.4, 1.0], [1.6, 0.8, 1.0]]);
     glb.finish()
 }

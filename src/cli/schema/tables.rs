@@ -12,7 +12,7 @@ pub fn scene() -> Value {
     let properties = json!({
         "file": described(text(), "The model, .glb or .gltf, relative to this file.", NONE),
         "scene": described(which, "Which of the file's scenes, by name or index; default: the file's default.", NONE),
-        "time": described(number(NumberRange::NOT_NEGATIVE), "Seconds into the animations (not built yet).", NONE),
+        "time": described(number(NumberRange::NOT_NEGATIVE), "Seconds into the file's animations; default: the rest pose.", NONE),
         "hide": described(patterns(), "Node-name patterns that are not drawn.", json!([])),
         "backfaces": described(json!({ "enum": ["show", "as-material"] }), "Triangles seen from behind.", json!("show")),
         "alternates": {

@@ -1,16 +1,9 @@
 //! What is not seen because a lens takes it away, for `explain`.
 
-use super::{Fragment, MovedLayers, Reach, ShearedRay, Tracer};
+use super::{MovedLayers, Reach, ShearedRay, Tracer};
 use crate::lens::RayLayers;
-use crate::plan::{LensSet, Region};
-
-/// A fragment that lenses erase, replace or move elsewhere.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Removed {
-    pub fragment: Fragment,
-    /// The lenses of its stack, or the rule, that do so.
-    pub by: LensSet,
-}
+use crate::pixel::{Fragment, Removed};
+use crate::plan::Region;
 
 impl Tracer<'_> {
     /// All that lenses take away on the ray through a point of the picture before a depth, nearest first.

@@ -21,14 +21,14 @@ fn edges(surface: &Surface) -> BTreeMap<[u32; 2], usize> {
     edges
 }
 
-/// Refuses a surface with an edge that its number of triangles does not close.
-pub fn is_closed(surface: &Surface, closes: impl Fn(usize) -> bool) -> Result<(), InputError> {
+/// Refuses a surface that ends somewhere. Two triangles meet at an edge, or four or six where parts of it touch.
+pub fn is_closed(surface: &Surface) -> Result<(), InputError> {
     let edges = edges(surface);
-    let open: Vec<_> = edges.iter().filter(|(_, triangles)| !closes(**triangles)).collect();
+    let open: Vec<_> = edges.iter().filter(|(_, triangles)| *triangles % 2 == 1).collect();
     let Some((ends, triangles)) = open.first() else { return Ok(()) };
     let [p, q] = ends.map(|i| point(surface, surface.vertices[i as usize]));
     let message = format!(
-        "{} is not closed: {} of its {} edges do not join two triangles; {triangles} meet at the edge from {p} to {q}",
+        "{} is not closed: {} of its {} edges have an odd number of triangles; the edge from {p} to {q} has {triangles}",
         surface.name,
         open.len(),
         edges.len()

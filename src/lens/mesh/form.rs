@@ -27,16 +27,16 @@ impl MeshForm {
     /// `convex` says is refused with the place, the numbers and what to do.
     pub fn new(model: &Model, node: Option<usize>, convex: Convex) -> Result<Self, InputError> {
         let surface = Surface::new(model, node)?;
+        if convex != Convex::Hull {
+            is_closed(&surface)?;
+        }
         let (form, inner) = match convex {
             Convex::Decompose => {
-                // Parts may touch, so an edge may have four triangles or six.
-                is_closed(&surface, |triangles| triangles % 2 == 0)?;
                 let solid = MeshSolid::new(surface.vertices.clone(), &surface.triangles);
                 (Form::Mesh(Arc::new(solid)), DAffine3::IDENTITY)
             }
             Convex::Hull => hull_of(&surface)?,
             Convex::AsItStands => {
-                is_closed(&surface, |triangles| triangles == 2)?;
                 let (form, inner) = hull_of(&surface)?;
                 let into_form = inner.inverse();
                 let depth = |p| form.depth_inside(into_form.transform_point3(p), &into_form.matrix3);

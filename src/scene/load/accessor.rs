@@ -48,7 +48,8 @@ impl<'f> Accessor<'f> {
     /// `normalize` does.
     pub fn floats<const N: usize>(&self, normalize: bool) -> Result<Vec<[f32; N]>, InputError> {
         if self.kind.multiplicity() != N || matches!(self.kind, Type::Mat2 | Type::Mat3 | Type::Mat4) {
-            return Err(self.error(format!("{}, expected VEC{N}", type_name(self.kind))));
+            let expected = if N == 1 { "SCALAR".to_string() } else { format!("VEC{N}") };
+            return Err(self.error(format!("{}, expected {expected}", type_name(self.kind))));
         }
         if self.component == ComponentType::U32 {
             return Err(self.error("UNSIGNED_INT components, expected FLOAT or 8 or 16 bit integers"));

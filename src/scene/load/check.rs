@@ -16,10 +16,28 @@ const SUPPORTED: [&str; 5] = [
     "KHR_texture_transform",
 ];
 
-pub fn parse(json: &[u8], name: &str) -> Result<json::Root, InputError> {
-    json::Root::from_slice(json).map_err(|e| {
-        InputError::new(format!("{name}: not a glTF file: {e}")).help("expected glTF 2.0, as .gltf (JSON) or .glb")
+pub fn parse(json: &[u8], name: &str, warnings: &mut Vec<String>) -> Result<json::Root, InputError> {
+    json::Root::from_slice(json).or_else(|error| {
+        let (root, left_out) = without_targetless_channels(json).ok_or_else(|| {
+            InputError::new(format!("{name}: not a glTF file: {error}"))
+                .help("expected glTF 2.0, as .gltf (JSON) or .glb")
+        })?;
+        warnings.push(format!("{} without a target node left out", count_of(left_out, "animation channel")));
+        Ok(root)
     })
+}
+
+/// glTF lets extensions animate other things than nodes, by channels without a target node; the crate's types do not.
+fn without_targetless_channels(json: &[u8]) -> Option<(json::Root, usize)> {
+    let mut root: serde_json::Value = serde_json::from_slice(json).ok()?;
+    let mut left_out = 0;
+    for animation in root.get_mut("animations")?.as_array_mut()? {
+        let channels = animation.get_mut("channels")?.as_array_mut()?;
+        let before = channels.len();
+        channels.retain(|channel| channel.pointer("/target/node").is_some());
+        left_out += before - channels.len();
+    }
+    Some((serde_json::from_value(root).ok()?, left_out)).filter(|_| left_out > 0)
 }
 
 /// Version, required extensions and every index; returns warnings.
@@ -111,9 +129,6 @@ fn warnings(root: &json::Root) -> Vec<String> {
     if !root.skins.is_empty() {
         let skins = count_of(root.skins.len(), "skin");
         warnings.push(format!("{skins} not applied: their meshes are shown in the pose they are stored in"));
-    }
-    if !root.animations.is_empty() {
-        warnings.push(format!("{} not played: the rest pose is shown", count_of(root.animations.len(), "animation")));
     }
     warnings
 }

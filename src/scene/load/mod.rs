@@ -4,6 +4,7 @@
 //! the model. Nothing is allocated from a number in the file before that number has been held against the bytes there.
 
 mod accessor;
+mod animation;
 mod attributes;
 mod camera;
 mod check;
@@ -50,7 +51,7 @@ impl File<'_> {
 }
 
 /// How messages name an object of a glTF file: ``mesh 3 `Gear` ``.
-fn object(kind: &str, index: usize, name: Option<&str>) -> String {
+pub(super) fn object(kind: &str, index: usize, name: Option<&str>) -> String {
     match name {
         Some(name) if !name.is_empty() => format!("{kind} {index} `{name}`"),
         _ => format!("{kind} {index}"),
@@ -79,11 +80,13 @@ impl Model {
         fetch: &mut Fetch<'_>,
     ) -> Result<Model, InputError> {
         let container = glb::split(bytes, name)?;
-        let root = check::parse(container.json, name)?;
-        let mut warnings = check::root(&root, name)?;
+        let mut warnings = Vec::new();
+        let root = check::parse(container.json, name, &mut warnings)?;
+        warnings.extend(check::root(&root, name)?);
         let buffers = open::buffers(&root, name, container.bin, fetch)?;
         let file = File { name, document: gltf::Document::from_json_without_validation(root), buffers };
         let (nodes, scene) = nodes::load(&file, choice, &mut warnings)?;
+        let animations = animation::load(&file, &nodes, &mut warnings)?;
         let materials = material::load(&file, &mut warnings)?;
         let textures = texture::load(&file);
         let mut extensions = file.root().extensions_used.clone();
@@ -94,6 +97,7 @@ impl Model {
             meshes: geometry::load(&file, &mut warnings)?,
             lights: light::load(&file)?,
             cameras: camera::load(&file)?,
+            animations,
             scenes: file.root().scenes.iter().map(|s| s.name.clone()).collect(),
             nodes,
             materials,
@@ -103,6 +107,7 @@ impl Model {
             extensions,
             warnings: Vec::new(),
         };
+        model.pose(None)?;
         model.images = image::load(&file, &model.used_images(), fetch)?;
         model.warnings = warnings;
         Ok(model)

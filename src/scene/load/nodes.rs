@@ -5,7 +5,7 @@ use gltf::json;
 
 use super::{File, object};
 use crate::InputError;
-use crate::scene::Node;
+use crate::scene::{Node, Transform, pose::top_down};
 use crate::spec::SceneChoice;
 
 /// All nodes and the index of the scene shown.
@@ -20,8 +20,8 @@ pub fn load(
         nodes.push(node(file, index, json, warnings)?);
     }
     link(file, &mut nodes)?;
-    let order = top_down(file, &nodes)?;
-    place(file, &mut nodes, &order)?;
+    let order = top_down(&nodes);
+    no_cycles(file, &nodes, &order)?;
     draw(file, &mut nodes, scene, &order);
     Ok((nodes, scene))
 }
@@ -49,18 +49,19 @@ fn choose(file: &File<'_>, choice: Option<&SceneChoice>) -> Result<usize, InputE
     })
 }
 
-/// One node on its own: `world_from_local` holds its local transform until [`place`] has run.
+/// One node on its own: links and the place in the world come later.
 fn node(file: &File<'_>, index: usize, json: &json::Node, warnings: &mut Vec<String>) -> Result<Node, InputError> {
     let label = object("node", index, json.name.as_deref());
-    let local = local_transform(json, &label, warnings);
-    if !local.is_finite() {
+    let rest = transform(json, &label, warnings);
+    if !rest.parent_from_local().is_finite() {
         return Err(file.error(label, "its transform is not finite"));
     }
     Ok(Node {
         name: json.name.clone().unwrap_or_default(),
         parent: None,
         children: json.children.iter().flatten().map(|c| c.value()).collect(),
-        world_from_local: local,
+        rest,
+        world_from_local: DAffine3::IDENTITY,
         mesh: json.mesh.map(|m| m.value()),
         camera: json.camera.map(|c| c.value()),
         light: json.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map(|l| l.light.value()),
@@ -68,21 +69,21 @@ fn node(file: &File<'_>, index: usize, json: &json::Node, warnings: &mut Vec<Str
     })
 }
 
-fn local_transform(json: &json::Node, label: &str, warnings: &mut Vec<String>) -> DAffine3 {
+fn transform(json: &json::Node, label: &str, warnings: &mut Vec<String>) -> Transform {
     if let Some(m) = json.matrix {
         if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
             warnings.push(format!("{label}: the last row of its matrix is not 0 0 0 1 and is ignored"));
         }
         let column = |c: usize| DVec3::new(m[4 * c].into(), m[4 * c + 1].into(), m[4 * c + 2].into());
         let matrix = DMat3::from_cols(column(0), column(1), column(2));
-        return DAffine3 { matrix3: matrix, translation: column(3) };
+        return Transform::Matrix(DAffine3 { matrix3: matrix, translation: column(3) });
     }
     let vector = |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
-    DAffine3::from_scale_rotation_translation(
-        vector(json.scale, DVec3::ONE),
-        rotation(json, label, warnings),
-        vector(json.translation, DVec3::ZERO),
-    )
+    Transform::Parts {
+        translation: vector(json.translation, DVec3::ZERO),
+        rotation: rotation(json, label, warnings),
+        scale: vector(json.scale, DVec3::ONE),
+    }
 }
 
 fn rotation(json: &json::Node, label: &str, warnings: &mut Vec<String>) -> DQuat {
@@ -110,35 +111,16 @@ fn link(file: &File<'_>, nodes: &mut [Node]) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Every node after its parent. Nodes have one parent at most here, so what no root reaches lies on a cycle.
-fn top_down(file: &File<'_>, nodes: &[Node]) -> Result<Vec<usize>, InputError> {
-    let mut order: Vec<usize> = (0..nodes.len()).filter(|n| nodes[*n].parent.is_none()).collect();
-    let mut next = 0;
-    while let Some(node) = order.get(next) {
-        order.extend(&nodes[*node].children);
-        next += 1;
-    }
+/// Nodes have one parent at most here, so what no root reaches lies on a cycle.
+fn no_cycles(file: &File<'_>, nodes: &[Node], order: &[usize]) -> Result<(), InputError> {
     if order.len() == nodes.len() {
-        return Ok(order);
+        return Ok(());
     }
     let mut reached = vec![false; nodes.len()];
     order.iter().for_each(|n| reached[*n] = true);
     let lost = reached.iter().position(|r| !r).unwrap_or(0);
     let label = object("node", lost, Some(&nodes[lost].name));
     Err(file.error(label, "it is its own ancestor, or a descendant of one that is").help("glTF nodes form a tree"))
-}
-
-fn place(file: &File<'_>, nodes: &mut [Node], order: &[usize]) -> Result<(), InputError> {
-    for &index in order {
-        let Some(parent) = nodes[index].parent else { continue };
-        let world = nodes[parent].world_from_local * nodes[index].world_from_local;
-        if !world.is_finite() {
-            let label = object("node", index, Some(&nodes[index].name));
-            return Err(file.error(label, "its transform, with those of its ancestors, is not finite"));
-        }
-        nodes[index].world_from_local = world;
-    }
-    Ok(())
 }
 
 /// Marks what the scene shows; a file without scenes shows everything.

@@ -5,20 +5,17 @@ use std::path::PathBuf;
 use toml::de::DeValue;
 
 use super::item::Item;
+use super::keys;
 use super::table::{Table, entries};
-use super::{keys, later};
 use crate::InputError;
 use crate::spec::{At, Backfaces, NumberRange, SceneChoice, SceneSpec};
 
 pub fn read(item: &Item) -> Result<SceneSpec, InputError> {
     let table = Table::open(item, "[scene]", keys::SCENE)?;
-    if let Some(time) = table.get("time") {
-        time.number(NumberRange::NOT_NEGATIVE)?;
-        return Err(later::feature(&time, "`time` of [scene]", "leave it out: the scene is drawn in its rest pose"));
-    }
     Ok(SceneSpec {
         file: table.need("file")?.path()?,
         scene: table.read("scene", choice)?,
+        time: table.read("time", time)?,
         hide: table.read("hide", Item::patterns)?.unwrap_or_default(),
         backfaces: table.read("backfaces", backfaces)?.unwrap_or_default(),
         alternates: table.read("alternates", alternates)?.unwrap_or_default(),
@@ -32,6 +29,10 @@ fn choice(item: &Item) -> Result<At<SceneChoice>, InputError> {
         _ => return Err(item.wrong_type("a scene's name or its index")),
     };
     Ok(item.at(choice))
+}
+
+fn time(item: &Item) -> Result<At<f64>, InputError> {
+    Ok(item.at(item.number(NumberRange::NOT_NEGATIVE)?))
 }
 
 fn backfaces(item: &Item) -> Result<Backfaces, InputError> {

@@ -1,0 +1,146 @@
+//! The account as JSON. Fields are added in later versions, never renamed or removed.
+
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+use super::{Coverage, Explanation, rule_line};
+use crate::output::Entry;
+use crate::plan::{LensSet, Reasons, Region};
+use crate::spec::Spec;
+
+/// An object with `order` (lowest first), `view` (null without a picture), `regions`, `undecided`, `warnings`.
+impl Serialize for Explanation<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_struct("Explanation", 5)?;
+        object.serialize_field("order", &self.order_json())?;
+        object.serialize_field("view", &self.coverage.as_ref().map(view_json))?;
+        object.serialize_field("regions", &RegionList(self))?;
+        object.serialize_field("undecided", &self.account.undecided)?;
+        object.serialize_field("warnings", &self.plan.warnings)?;
+        object.end()
+    }
+}
+
+/// A lens in the total order.
+#[derive(serde::Serialize)]
+struct OrderedLens<'a> {
+    lens: &'a str,
+    /// Of the spec, from 1.
+    line: usize,
+    filters: Vec<&'static str>,
+    overrides: bool,
+    /// Sorted; all below for one that overrides.
+    hides: Vec<&'a str>,
+    /// Null for the lowest.
+    above_previous_because: Option<String>,
+}
+
+/// A picture as a whole.
+#[derive(serde::Serialize)]
+struct ViewJson<'a> {
+    size: [u32; 2],
+    backend: &'a str,
+    /// Outside all lenses, where no rule acts.
+    plain: Share,
+    nothing: Share,
+}
+
+#[derive(serde::Serialize)]
+struct Share {
+    pixels: u64,
+    /// Of the whole picture.
+    percent: f64,
+}
+
+/// A region that occurs.
+#[derive(serde::Serialize)]
+struct RegionJson<'a> {
+    id: usize,
+    /// Sorted.
+    lenses: Vec<&'a str>,
+    /// Lowest first.
+    stack: Vec<Entry>,
+    /// Of the rule that acts, from 1; null where lenses act.
+    rule_line: Option<usize>,
+    hidden: Vec<HiddenJson<'a>>,
+    order: Vec<NeighboursJson<'a>>,
+    /// Of the picture; null without one.
+    #[serde(flatten)]
+    share: Option<Share>,
+}
+
+/// A lens of a region that does not act there.
+#[derive(serde::Serialize)]
+pub(super) struct HiddenJson<'a> {
+    lens: &'a str,
+    by: &'a str,
+    because: String,
+}
+
+/// Two neighbours of a stack.
+#[derive(serde::Serialize)]
+pub(super) struct NeighboursJson<'a> {
+    below: &'a str,
+    above: &'a str,
+    because: String,
+}
+
+/// The regions, each made only when it is written: there may be very many.
+struct RegionList<'a>(&'a Explanation<'a>);
+
+impl Serialize for RegionList<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let explanation = self.0;
+        let plan = explanation.plan;
+        let reasons = Reasons::new(explanation.spec, plan);
+        serializer.collect_seq(explanation.regions.iter().map(|(id, region)| RegionJson {
+            id: *id,
+            lenses: plan.names(region.set),
+            stack: crate::output::stack(plan, *region),
+            rule_line: region.rule(plan).map(|rule| rule_line(explanation.spec, rule)),
+            hidden: hidden_json(&reasons, region),
+            order: order_json(&reasons, region.stack),
+            share: explanation.coverage.as_ref().map(|coverage| Share::new(coverage, coverage.pixels(region))),
+        }))
+    }
+}
+
+impl Share {
+    fn new(coverage: &Coverage, pixels: u64) -> Self {
+        Self { pixels, percent: coverage.percent(pixels) }
+    }
+}
+
+impl Explanation<'_> {
+    fn order_json(&self) -> Vec<OrderedLens<'_>> {
+        let line = |spec: &Spec, index: usize| spec.source.line(spec.lenses[index].name.span.start);
+        let lens = |(rank, lens): (usize, &'_ crate::plan::Lens)| OrderedLens {
+            lens: self.plan.lenses[rank].name.as_str(),
+            line: line(self.spec, lens.index),
+            filters: lens.filter_names().collect(),
+            overrides: lens.overrides,
+            hides: self.plan.names(lens.hides),
+            above_previous_because: rank.checked_sub(1).map(|below| self.account.order[below].to_string()),
+        };
+        self.plan.lenses.iter().enumerate().map(lens).collect()
+    }
+}
+
+fn view_json(coverage: &Coverage) -> ViewJson<'_> {
+    ViewJson {
+        size: coverage.size,
+        backend: &coverage.backend,
+        plain: Share::new(coverage, coverage.pixels(&Region::PLAIN)),
+        nothing: Share::new(coverage, coverage.nothing),
+    }
+}
+
+pub(super) fn hidden_json<'a>(reasons: &Reasons<'a>, region: &Region) -> Vec<HiddenJson<'a>> {
+    let hidden = reasons.hidden(region);
+    hidden.map(|h| HiddenJson { lens: h.lens, by: h.by, because: h.because.to_string() }).collect()
+}
+
+/// Why each lens of a stack is above the one before it.
+pub(super) fn order_json<'a>(reasons: &Reasons<'a>, stack: LensSet) -> Vec<NeighboursJson<'a>> {
+    let neighbours = reasons.neighbours(stack);
+    neighbours.map(|n| NeighboursJson { below: n.below, above: n.above, because: n.because.to_string() }).collect()
+}

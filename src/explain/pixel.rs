@@ -1,0 +1,218 @@
+//! What one view ray meets, and why.
+
+use std::fmt::{self, Display, Formatter};
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::json::{HiddenJson, NeighboursJson, hidden_json, order_json};
+use super::{actor, lenses, rule_line};
+use crate::output::{Actor, Entry};
+use crate::pick::{NamedSurface, places};
+use crate::pixel::{Fragment, PixelReport, Removed, Survivor};
+use crate::plan::{Plan, Reasons, Region, filter_name};
+use crate::scene::Scene;
+use crate::spec::{Filter, Spec};
+
+/// A pixel's report with all that its account needs. `Display` gives the text, `Serialize` the JSON.
+pub struct PixelAccount<'a> {
+    pub spec: &'a Spec,
+    pub scene: &'a Scene,
+    pub plan: &'a Plan,
+    /// Column and row.
+    pub pixel: [u32; 2],
+    pub report: &'a PixelReport,
+    /// Whose report it is, in a word.
+    pub backend: &'a str,
+}
+
+impl Display for PixelAccount<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { plan, pixel: [x, y], report, backend, .. } = self;
+        let [width, height] = plan.view.size;
+        writeln!(f, "pixel {x},{y} of {width} x {height} ({backend}): {} layers", report.layers.len())?;
+        writeln!(f, "  {:>12}    {:>12}  lenses around the ray", "from depth", "to")?;
+        for (start, end) in self.stretches() {
+            let region = Region { set: start.set, stack: plan.stack_of(start.set) };
+            write!(f, "  {:12.5} .. {end:12.5}  {}", start.depth, lenses(plan, &region))?;
+            if region == Region::PLAIN { writeln!(f)? } else { writeln!(f, "; stack {}", self.stack_text(&region))? }
+        }
+        let reasons = Reasons::new(self.spec, plan);
+        writeln!(f, "fragments that survive, nearest first: {}", report.fragments.len())?;
+        for survivor in &report.fragments {
+            let Survivor { fragment, opacity, coverage } = survivor;
+            let visible = if self.is_visible(fragment) { "  <- visible" } else { "" };
+            let more = format!("; opacity {opacity:.3}, coverage {coverage:.3}{visible}");
+            self.write_fragment(fragment, &more, "", &reasons, f)?;
+        }
+        if !report.removed.is_empty() {
+            writeln!(f, "fragments in front that lenses remove, nearest first: {}", report.removed.len())?;
+        }
+        for removed in &report.removed {
+            let remover = |rank| format!("{} ({})", actor(self.spec, plan, rank), self.remover(rank));
+            let by: Vec<String> = removed.by.iter().map(remover).collect();
+            self.write_fragment(&removed.fragment, "", &format!("; removed by {}", by.join(", ")), &reasons, f)?;
+        }
+        Ok(())
+    }
+}
+
+impl PixelAccount<'_> {
+    /// The layers, each with the depth at which it ends.
+    fn stretches(&self) -> impl Iterator<Item = (crate::lens::LayerStart, f64)> {
+        let starts = &self.report.layers;
+        let ends = starts.iter().skip(1).map(|start| start.depth).chain([self.plan.view.far]);
+        starts.iter().copied().zip(ends)
+    }
+
+    fn is_visible(&self, fragment: &Fragment) -> bool {
+        self.report.visible.is_some_and(|visible| visible.fragment == *fragment)
+    }
+
+    fn stack_text(&self, region: &Region) -> String {
+        let stack: Vec<String> = region.stack.iter().map(|rank| actor(self.spec, self.plan, rank)).collect();
+        if stack.is_empty() { "none".into() } else { stack.join(" < ") }
+    }
+
+    /// A line for the surface, one for its lenses, one for where it is moved from, and one for each reason.
+    fn write_fragment(
+        &self,
+        fragment: &Fragment,
+        more: &str,
+        removed: &str,
+        reasons: &Reasons,
+        f: &mut Formatter<'_>,
+    ) -> fmt::Result {
+        const INDENT: &str = "                ";
+        let Fragment { instance, triangle, depth, region, .. } = *fragment;
+        let surface = NamedSurface::new(self.scene, self.plan, instance, triangle, region);
+        let (node, material) = (surface.node.name, surface.material.name);
+        writeln!(f, "  {depth:12.5}  {node} ({material}), triangle {triangle}{more}")?;
+        writeln!(f, "{INDENT}in {}; stack {}{removed}", lenses(self.plan, &region), self.stack_text(&region))?;
+        if !surface.moved_by.is_empty() {
+            let place = places(self.plan, self.pixel, instance, depth).1;
+            writeln!(f, "{INDENT}moved by {} from {}", surface.moved_by.join(", "), point_text(place))?;
+        }
+        f.write_str(&reasons.lines(&region, INDENT))
+    }
+
+    /// The filter by which a lens takes a fragment away; one that shows something replaces all the rest.
+    fn remover(&self, rank: usize) -> &'static str {
+        let filters = self.plan.filters_of(rank);
+        let by = |wanted: fn(&Filter) -> bool| filters.iter().find(|filter| wanted(filter)).map(filter_name);
+        by(|f| matches!(f, Filter::Show(_)))
+            .or(by(|f| matches!(f, Filter::Erase { .. })))
+            .or(by(Filter::moves))
+            .unwrap_or("nothing")
+    }
+
+    fn remover_entry(&self, rank: usize) -> Entry {
+        let by = match self.plan.rule_of(rank) {
+            Some(rule) => Actor::Rule(rule),
+            None => Actor::Lens(self.plan.lenses[rank].name.clone()),
+        };
+        Entry { by, filter: self.remover(rank) }
+    }
+
+    fn fragment_json<'a>(&'a self, fragment: &Fragment, reasons: &Reasons<'a>) -> FragmentJson<'a> {
+        let Fragment { instance, triangle, depth, region, .. } = *fragment;
+        let (position, place) = places(self.plan, self.pixel, instance, depth);
+        FragmentJson {
+            surface: NamedSurface::new(self.scene, self.plan, instance, triangle, region),
+            depth,
+            position,
+            place,
+            rule_line: region.rule(self.plan).map(|rule| rule_line(self.spec, rule)),
+            hidden: hidden_json(reasons, &region),
+            order: order_json(reasons, region.stack),
+        }
+    }
+}
+
+/// As text, with as many digits as a depth has.
+pub fn point_text(p: DVec3) -> String {
+    format!("({:.5} {:.5} {:.5})", p.x, p.y, p.z)
+}
+
+#[derive(Serialize)]
+struct PixelJson<'a> {
+    pixel: [u32; 2],
+    size: [u32; 2],
+    backend: &'a str,
+    layers: Vec<LayerJson<'a>>,
+    /// Those that survive, nearest first.
+    fragments: Vec<SurvivorJson<'a>>,
+    /// In front of the visible one, nearest first.
+    removed: Vec<RemovedJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct LayerJson<'a> {
+    /// Where it starts and ends.
+    depth: f64,
+    end: f64,
+    lenses: Vec<&'a str>,
+    /// Of a surface to which all its lenses apply.
+    stack: Vec<Entry>,
+}
+
+#[derive(Serialize)]
+struct FragmentJson<'a> {
+    #[serde(flatten)]
+    surface: NamedSurface<'a>,
+    depth: f32,
+    /// Where it is shown.
+    position: DVec3,
+    /// Where it stands in the scene.
+    place: DVec3,
+    rule_line: Option<usize>,
+    hidden: Vec<HiddenJson<'a>>,
+    order: Vec<NeighboursJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct SurvivorJson<'a> {
+    #[serde(flatten)]
+    fragment: FragmentJson<'a>,
+    opacity: f32,
+    coverage: f32,
+    visible: bool,
+}
+
+#[derive(Serialize)]
+struct RemovedJson<'a> {
+    #[serde(flatten)]
+    fragment: FragmentJson<'a>,
+    removed_by: Vec<Entry>,
+}
+
+impl Serialize for PixelAccount<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let reasons = Reasons::new(self.spec, self.plan);
+        let layer = |(start, end): (crate::lens::LayerStart, f64)| LayerJson {
+            depth: start.depth,
+            end,
+            lenses: self.plan.names(start.set),
+            stack: crate::output::stack(self.plan, Region { set: start.set, stack: self.plan.stack_of(start.set) }),
+        };
+        let survivor = |survivor: &Survivor| SurvivorJson {
+            fragment: self.fragment_json(&survivor.fragment, &reasons),
+            opacity: survivor.opacity,
+            coverage: survivor.coverage,
+            visible: self.is_visible(&survivor.fragment),
+        };
+        let removed = |removed: &Removed| RemovedJson {
+            fragment: self.fragment_json(&removed.fragment, &reasons),
+            removed_by: removed.by.iter().map(|rank| self.remover_entry(rank)).collect(),
+        };
+        PixelJson {
+            pixel: self.pixel,
+            size: self.plan.view.size,
+            backend: self.backend,
+            layers: self.stretches().map(layer).collect(),
+            fragments: self.report.fragments.iter().map(survivor).collect(),
+            removed: self.report.removed.iter().map(removed).collect(),
+        }
+        .serialize(serializer)
+    }
+}
