@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::Window;
+use super::{Window, tiles};
 use crate::lens::{Form, PixelRect, Polyhedron, Solid};
 use crate::plan::Plan;
 
@@ -47,9 +47,7 @@ impl DepthMaps {
     /// `layer_words`: how many words stand before the maps.
     pub fn new(plan: &Plan, window: &Window, layer_words: u64) -> Self {
         let mut maps = Self { first_word: layer_words, end_word: layer_words, ..Self::default() };
-        let solids = plan.lenses.iter().flat_map(|lens| &lens.volume.parts);
-        for (part, solid) in solids.enumerate() {
-            let rect = window.local(&solid.pixel_rect(&plan.view));
+        for (part, (solid, rect)) in tiles::parts(plan, window).enumerate() {
             let Some(faces) = faces(solid).filter(|_| !rect.is_empty()) else { continue };
             maps.maps.push(DepthMap { part, first: maps.end_word, rect });
             maps.end_word += 2 * rect.area();

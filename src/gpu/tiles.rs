@@ -1,8 +1,8 @@
 //! Which parts of lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
 
 use super::Window;
-use crate::lens::{LayerStart, LensSet, Solid};
-use crate::plan::{Lens, Plan};
+use crate::lens::{LayerStart, LensSet, PixelRect, Solid};
+use crate::plan::Plan;
 
 /// Side of a tile in pixels; `TILE` of the shaders.
 pub const TILE: u32 = 16;
@@ -25,6 +25,18 @@ pub struct Tiles {
     stride: u32,
 }
 
+/// Every part of every lens, with the pixels of a window outside which it does not matter.
+pub fn parts<'a>(plan: &'a Plan, window: &Window) -> impl Iterator<Item = (&'a Solid, PixelRect)> {
+    plan.lenses.iter().flat_map(move |lens| {
+        let rect = |solid: &Solid| match lens.volume.parts.len() {
+            1 => lens.rect,
+            // A part may reach beyond its lens, when another part cuts it.
+            _ => solid.pixel_rect(&plan.view).intersection(lens.rect),
+        };
+        lens.volume.parts.iter().map(move |solid| (solid, window.local(&rect(solid))))
+    })
+}
+
 impl Tiles {
     /// A ray crosses each of n convex parts at most twice, so a pixel has at most 2n + 1 layers, and storage for them is
     /// settled here. For each mesh there is room for so many `crossings`.
@@ -32,10 +44,9 @@ impl Tiles {
         let columns = window.size[0].div_ceil(TILE);
         let rows = window.size[1].div_ceil(TILE);
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
-        let parts = || plan.lenses.iter().flat_map(|lens| lens.volume.parts.iter().map(move |solid| (lens, solid)));
-        for (part, (lens, solid)) in (0u32..).zip(parts()) {
-            // A part may reach beyond its lens, when another part cuts it.
-            let rect = window.local(&solid.pixel_rect(&plan.view).intersection(lens.rect));
+        let mut room = Vec::new();
+        for (part, (solid, rect)) in (0u32..).zip(parts(plan, window)) {
+            room.push(if solid.form.is_convex() { 2 } else { crossings });
             if rect.is_empty() {
                 continue;
             }
@@ -45,8 +56,7 @@ impl Tiles {
                 }
             }
         }
-        let room = |(_, solid): (&Lens, &Solid)| if solid.form.is_convex() { 2 } else { crossings };
-        Self::from_lists(&lists, &parts().map(room).collect::<Vec<u32>>(), set_words)
+        Self::from_lists(&lists, &room, set_words)
     }
 
     /// The layers of each pixel of a window of the given width and height, read back from the device.

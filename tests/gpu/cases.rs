@@ -28,6 +28,8 @@ pub const ALL: &[(&str, Test)] = &[
     ("layers_of_random_compounds", crate::compounds::layers_of_random_compounds),
     ("pictures_of_compounds", crate::compounds::pictures_of_compounds),
     ("crossings_that_overflow", crate::compounds::crossings_that_overflow),
+    ("as_many_lenses_as_there_can_be", crate::limits::as_many_lenses_as_there_can_be),
+    ("what_a_plan_needs_is_refused_with_numbers", crate::limits::what_a_plan_needs_is_refused_with_numbers),
     ("a_target_of_a_host", crate::host::a_target_of_a_host),
 ];
 

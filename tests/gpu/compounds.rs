@@ -67,7 +67,7 @@ pub fn crossings_that_overflow(device: &Headless) -> Result<(), String> {
     let lens = "[[lens]]\nname = \"row\"\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nfilters = [\"invert\"]\n";
     let (scene, mut plan) = planned(SIZE, 1, "eye = [0, 0.3, 4]\ntarget = [0, 0.3, 0]\nfov_y = 20", lens);
     replace(&mut plan, 0, of(row(BOXES)));
-    assert!(2 * BOXES > Room::FIRST.crossings);
+    const { assert!(2 * BOXES > Room::FIRST.crossings) };
     compare_layers(device, &scene, &plan)?;
     check(device, &scene, &plan)?;
     let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
@@ -88,11 +88,12 @@ pub fn crossings_that_overflow(device: &Headless) -> Result<(), String> {
 }
 
 /// A volume of one part.
-fn of(solid: Solid) -> Volume {
+pub fn of(solid: Solid) -> Volume {
     Volume { center: solid.center, parts: vec![solid], tree: Tree::Part(0) }
 }
 
-fn replace(plan: &mut Plan, rank: usize, volume: Volume) {
+/// Gives a lens another volume.
+pub fn replace(plan: &mut Plan, rank: usize, volume: Volume) {
     let lens = &mut plan.lenses[rank];
     lens.rect = volume.pixel_rect(&plan.view);
     lens.volume = volume;
@@ -115,21 +116,23 @@ fn tree(random: &mut Random, depth: u32, parts: usize) -> Tree {
 fn placed(mesh: MeshSolid, pose: DAffine3) -> Solid {
     let world_from_local = pose * DAffine3::from_scale(DVec3::splat(0.8));
     let hull = mesh.vertices.iter().map(|v| world_from_local.transform_point3(*v)).collect();
-    Solid::new(Form::Mesh(Arc::new(mesh)), world_from_local, hull, pose.translation.into(), false)
+    Solid::new(Form::Mesh(Arc::new(mesh)), world_from_local, hull, pose.translation, false)
 }
 
-/// Around the z axis.
 fn torus(pose: DAffine3) -> Solid {
-    const AROUND: u32 = 24;
-    const ACROSS: u32 = 10;
+    torus_of(24, 10, pose)
+}
+
+/// Around the z axis, with so many corners around it and across.
+pub fn torus_of(around: u32, across: u32, pose: DAffine3) -> Solid {
     let corner = |i: u32, j: u32| {
-        let (u, v) = (TAU * f64::from(i) / f64::from(AROUND), TAU * f64::from(j) / f64::from(ACROSS));
+        let (u, v) = (TAU * f64::from(i) / f64::from(around), TAU * f64::from(j) / f64::from(across));
         let radius = 0.7 + 0.3 * v.cos();
         DVec3::new(radius * u.cos(), radius * u.sin(), 0.3 * v.sin())
     };
-    let vertices = (0..AROUND * ACROSS).map(|n| corner(n / ACROSS, n % ACROSS)).collect();
-    let at = |i: u32, j: u32| (i % AROUND) * ACROSS + j % ACROSS;
-    let quads = (0..AROUND * ACROSS).map(|n| (n / ACROSS, n % ACROSS));
+    let vertices = (0..around * across).map(|n| corner(n / across, n % across)).collect();
+    let at = |i: u32, j: u32| (i % around) * across + j % across;
+    let quads = (0..around * across).map(|n| (n / across, n % across));
     let triangles: Vec<[u32; 3]> = quads
         .flat_map(|(i, j)| {
             let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];

@@ -8,6 +8,7 @@ mod cases;
 mod compounds;
 mod host;
 mod intervals;
+mod limits;
 mod scene;
 
 use std::process::ExitCode;
