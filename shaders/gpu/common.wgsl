@@ -1,11 +1,21 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
-// `WORDS`, the number of 32-bit words of a lens set, is put in front of this file when it is assembled.
+// Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, and
+// `PART_WORDS`, that of a set of one lens's parts; whether some lens has several parts or a mesh (`COMPOUNDS`), moves
+// content (`MOVERS`) or is soft (`SOFT`).
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
 // Stands for infinity: infinite values are not reliable in WGSL.
 const FAR_AWAY: f32 = 1e37;
 const TILE: u32 = 16u;
+// Boundaries closer than this share of the depth are one.
+const MERGE: f32 = 1e-5;
+
+// Whether a boundary is another one than that at `first` before it.
+fn starts_boundary(first: f32, depth: f32) -> bool {
+    return depth - first > MERGE * abs(first);
+}
+
 
 // Twin of `records::FrameRecord`.
 struct Frame {
@@ -45,6 +55,11 @@ struct Frame {
     active_tiles: u32,
     // Not 0: the target encodes sRGB itself.
     target_is_srgb: u32,
+    // Overlap rules stand behind the lenses.
+    lens_count: u32,
+    rule_count: u32,
+    pad_a: u32,
+    pad_b: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,
@@ -57,10 +72,11 @@ const MASK_SCOPE: u32 = 0u;
 const MASK_OBJECT: u32 = 1u;
 const MASK_SHOWN_BY: u32 = 2u;
 const MASK_REMOVED_BY: u32 = 3u;
+const MASK_MOVERS: u32 = 4u;
 
-// An item or a chunk of its triangles: twin of `records::ItemRecord`, and the item's masks.
+// A way in which an item is shown, or a chunk of its triangles: twin of `records::ItemRecord`, and the item's masks.
 struct Item {
-    // Rows of the map from local space.
+    // Rows of the map from local space to where it is shown.
     row_x: vec4f,
     row_y: vec4f,
     row_z: vec4f,
@@ -83,7 +99,12 @@ struct Item {
     uv1: u32,
     // Bit i: its material has a texture in slot i.
     slots: u32,
-    masks: array<u32, 4u * WORDS>,
+    // The centre of its node where it is in place.
+    center: vec3f,
+    // How its rays are moved, in `steps`.
+    first_step: u32,
+    step_count: u32,
+    masks: array<u32, 5u * WORDS>,
 }
 
 const FORM_EMPTY: u32 = 0u;
@@ -91,47 +112,89 @@ const FORM_SPHERE: u32 = 1u;
 const FORM_CONE: u32 = 2u;
 const FORM_CAPSULE: u32 = 3u;
 const FORM_HALF_SPACES: u32 = 4u;
+const FORM_MESH: u32 = 5u;
 
-const LENS_FLAT: u32 = 1u;
-const LENS_GLASS: u32 = 2u;
-// Its crossings come from a depth map.
-const LENS_DEPTH_MAP: u32 = 4u;
-const LENS_HOLDS_EYE: u32 = 8u;
+// A lens that moves content, on the way down from a shown point: twin of `records::StepRecord`.
+struct Step {
+    // Rows of the map from the shown point to where the lenses below are asked.
+    row_x: vec4f,
+    row_y: vec4f,
+    row_z: vec4f,
+    rank: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
+}
 
-// Twin of `records::LensRecord`, and the lens's mask.
+const LENS_GLASS: u32 = 1u;
+const LENS_BY_OBJECT: u32 = 2u;
+
+// A lens or an overlap rule: twin of `records::LensRecord`, and the lens's mask.
 struct Lens {
-    // The pixel's ray in the lens's own space, as in `Frame`.
+    glass: Glass,
+    flags: u32,
+    // Its parts in `parts`; of a rule the sets of its names in `lens_words`.
+    first_part: u32,
+    part_count: u32,
+    // Its program in `lens_words`; none where a lens is one convex part.
+    first_token: u32,
+    token_count: u32,
+    first_op: u32,
+    op_count: u32,
+    // Width over which it fades in from the boundary; 0: a sharp one.
+    soft: f32,
+    hides: array<u32, WORDS>,
+}
+
+const PART_FLAT: u32 = 1u;
+// Its crossings come from a depth map.
+const PART_DEPTH_MAP: u32 = 2u;
+const PART_HOLDS_EYE: u32 = 4u;
+
+// One solid of a lens volume, convex but for FORM_MESH: twin of `records::PartRecord`.
+struct Part {
+    // The pixel's ray in the part's own space, as in `Frame`.
     ray_fixed: vec4f,
     ray_base: vec4f,
     ray_dx: vec4f,
     ray_dy: vec4f,
-    // Columns of the map from normals in the lens's own space.
+    // Columns of the map from normals in the part's own space.
     normal_x: vec4f,
     normal_y: vec4f,
     normal_z: vec4f,
-    glass: Glass,
+    // Rows of the map from the space around the eye.
+    local_x: vec4f,
+    local_y: vec4f,
+    local_z: vec4f,
+    // Rank of its lens.
+    lens: u32,
     form: u32,
     flags: u32,
-    // Two vectors a plane in `lens_data`: the coefficients along rays and the normal. The first `hidden` are not seen.
+    // Two vectors a plane in `lens_data`: the coefficients along pixels' rays, and the normal with
+    // the offset. The first `hidden` are not seen.
     first_plane: u32,
     plane_count: u32,
     hidden: u32,
-    // Corners of a flat lens in `lens_data`.
+    // Corners of a flat part in `lens_data`.
     first_corner: u32,
     corner_count: u32,
-    first_op: u32,
-    op_count: u32,
     // Radii of a cone; length of a capsule.
     r0: f32,
     r1: f32,
     length: f32,
     // Where its depth map starts in `layers`, and the pixels of the window that it covers.
     map_first: u32,
-    map_pad: u32,
     map_min: vec2u,
     map_size: vec2u,
-    pad: vec2u,
-    hides: array<u32, WORDS>,
+    // A mesh in `lens_words`, and for how many of its crossings each pixel has room.
+    first_node: u32,
+    node_count: u32,
+    first_triangle: u32,
+    first_vertex: u32,
+    crossing_room: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
 }
 
 // Twin of `scene::TextureSlot`.
@@ -147,8 +210,6 @@ const SLOT_METALLIC_ROUGHNESS: u32 = 1u;
 const SLOT_NORMAL: u32 = 2u;
 const SLOT_OCCLUSION: u32 = 3u;
 const SLOT_EMISSIVE: u32 = 4u;
-// Not a material's: the texture of a filter.
-const SLOT_FILTER: u32 = 5u;
 
 // Twin of `scene::MaterialRecord`.
 struct Material {
@@ -193,20 +254,24 @@ struct TextureInfo {
 // The plan: one frame.
 @group(1) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(1) var<storage, read> items: array<Item>;
-@group(1) @binding(2) var<storage, read> lenses: array<Lens>;
-@group(1) @binding(3) var<storage, read> lens_data: array<vec4f>;
-@group(1) @binding(4) var<storage, read> ops: array<Op>;
-@group(1) @binding(5) var<storage, read> lights: array<Light>;
-// Four words a tile (see `TileRecord`), then the tiles that lenses touch, then their lists of lenses.
-@group(1) @binding(6) var<storage, read> tiles: array<u32>;
+@group(1) @binding(2) var<storage, read> steps: array<Step>;
+@group(1) @binding(3) var<storage, read> lenses: array<Lens>;
+@group(1) @binding(4) var<storage, read> parts: array<Part>;
+@group(1) @binding(5) var<storage, read> lens_data: array<vec4f>;
+// Programs and meshes of lenses.
+@group(1) @binding(6) var<storage, read> lens_words: array<u32>;
+@group(1) @binding(7) var<storage, read> ops: array<Op>;
+@group(1) @binding(8) var<storage, read> lights: array<Light>;
+// Four words a tile (see `TileRecord`), then the tiles that lenses touch, then their lists of parts.
+@group(1) @binding(9) var<storage, read> tiles: array<u32>;
 
 struct TileRecord {
     // Where the layers of its first pixel are, and how many words each pixel has there.
     layers: u32,
     stride: u32,
-    // Its lenses in `tiles`.
-    first_lens: u32,
-    lens_count: u32,
+    // The parts of lenses that may touch it, in `tiles`.
+    first_part: u32,
+    part_count: u32,
 }
 
 fn tile_columns() -> u32 {

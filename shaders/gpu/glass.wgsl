@@ -2,74 +2,176 @@
 
 struct GlassHit {
     depth: f32,
-    // Twice the rank, plus one for the exit: the order of surfaces at one depth.
+    // Twice the rank, plus one where the ray leaves the lens: the order of surfaces at one depth.
     key: u32,
     found: bool,
-    // The whole crossing of its lens.
+    // The part whose surface it is and its whole crossing, which ends here or starts here.
+    part: u32,
     span: Span,
+    is_exit: bool,
+}
+
+fn no_glass(depth: f32, key: u32) -> GlassHit {
+    return GlassHit(depth, key, false, 0u, no_span(), false);
+}
+
+fn is_glass_before(a: GlassHit, b: GlassHit) -> bool {
+    return a.depth < b.depth || (a.depth == b.depth && a.key < b.key);
 }
 
 // The next lens surface behind `after` that the eye can see.
-fn next_glass(tile: TileRecord, at: vec2f, after: GlassHit) -> GlassHit {
-    var best = GlassHit(FAR_AWAY, NONE, false, no_span());
-    for (var i = 0u; i < tile.lens_count; i += 1u) {
-        let rank = tiles[tile.first_lens + i];
+fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
+    let ray = lens_ray(sample_point(pixel));
+    var best = no_glass(FAR_AWAY, NONE);
+    var compounds = false;
+    for (var i = 0u; i < tile.part_count; i += 1u) {
+        let part = tiles[tile.first_part + i];
+        let rank = parts[part].lens;
         if (lenses[rank].flags & LENS_GLASS) == 0u {
             continue;
         }
-        let span = lens_span(rank, at);
-        if !span.hit {
+        if lenses[rank].token_count != 0u {
+            compounds = true;
             continue;
         }
-        for (var side = 0u; side < 2u; side += 1u) {
-            let depth = select(span.exit, span.entry, side == 0u);
-            let face = select(span.exit_face, span.entry_face, side == 0u);
-            let key = 2u * rank + side;
-            let seen = lenses[rank].form != FORM_HALF_SPACES || face >= lenses[rank].hidden;
-            let behind = depth > after.depth || (depth == after.depth && key > after.key);
-            let nearer = depth < best.depth || (depth == best.depth && key < best.key);
-            if seen && behind && nearer && depth > frame.near && depth < frame.far {
-                best = GlassHit(depth, key, true, span);
+        let span = part_span(part, ray);
+        for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
+            let hit = GlassHit(select(span.exit, span.entry, side == 0u), 2u * rank + side, true, part, span, side == 1u);
+            let within = hit.depth > frame.near && hit.depth < frame.far;
+            if within && is_seen(hit) && is_glass_before(after, hit) && is_glass_before(hit, best) {
+                best = hit;
+            }
+        }
+    }
+    if COMPOUNDS && compounds {
+        best = next_compound_glass(tile, pixel, after, best);
+    }
+    return best;
+}
+
+// The same for lenses of several parts or a mesh, which begin and end where their bit changes from layer to layer;
+// `best` where that is nearer.
+fn next_compound_glass(tile: TileRecord, pixel: vec2u, after: GlassHit, best: GlassHit) -> GlassHit {
+    let count = layer_count(tile, pixel);
+    let at = layers_at(tile, pixel);
+    for (var layer = 1u; layer < count; layer += 1u) {
+        let depth = layer_start(at, layer);
+        if depth < after.depth {
+            continue;
+        }
+        if depth > best.depth {
+            break;
+        }
+        let before = layer_set(at, layer - 1u);
+        let behind = layer_set(at, layer);
+        for (var w = 0u; w < WORDS; w += 1u) {
+            var changed = before.words[w] ^ behind.words[w];
+            while changed != 0u {
+                let bit = firstTrailingBit(changed);
+                changed = changed & (changed - 1u);
+                let rank = 32u * w + bit;
+                let key = 2u * rank + 1u - ((behind.words[w] >> bit) & 1u);
+                let is_next = is_glass_before(after, no_glass(depth, key)) && is_glass_before(no_glass(depth, key), best);
+                if (lenses[rank].flags & LENS_GLASS) == 0u || lenses[rank].token_count == 0u || !is_next {
+                    continue;
+                }
+                let hit = compound_glass(rank, key, lens_ray(sample_point(pixel)), depth);
+                if hit.found && is_seen(hit) {
+                    return hit;
+                }
             }
         }
     }
     return best;
 }
 
+// Sides of flat parts go through the eye and are not seen.
+fn is_seen(hit: GlassHit) -> bool {
+    return parts[hit.part].form != FORM_HALF_SPACES || glass_face(hit) >= parts[hit.part].hidden;
+}
+
+fn glass_face(hit: GlassHit) -> u32 {
+    return select(hit.span.entry_face, hit.span.exit_face, hit.is_exit);
+}
+
+fn span_around(part: u32, ray: LensRay, depth: f32) -> Span {
+    if parts[part].form == FORM_MESH {
+        return mesh_span(part, ray, depth);
+    }
+    return part_span(part, ray);
+}
+
+// The surface of a lens where it begins or ends at `depth`: of the first part whose crossing there makes a difference.
+// Goes from crossing to crossing, at one depth in the order of the parts, until the lens has changed.
+fn compound_glass(rank: u32, key: u32, ray: LensRay, depth: f32) -> GlassHit {
+    let merge = MERGE * abs(depth);
+    // Rounding may differ between passes; another lens may have drawn the boundary nearer by one merge, and another part
+    // of this one by one more.
+    var reached = depth - 0.1 * merge;
+    let last = depth + 2.0 * merge;
+    var hit = no_glass(depth, key);
+    var number = NONE;
+    loop {
+        // Which parts hold the ray there, and the next crossing.
+        inside_parts = array<u32, PART_WORDS>();
+        var next = no_glass(last, key);
+        var next_number = NONE;
+        for (var i = 0u; i < lenses[rank].part_count; i += 1u) {
+            let part = lenses[rank].first_part + i;
+            let span = span_around(part, ray, depth);
+            for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
+                let t = select(span.entry, span.exit, side == 1u);
+                if t < reached || (t == reached && i <= number) {
+                    cross_part(i);
+                } else if t < next.depth {
+                    next = GlassHit(t, key, true, part, span, side == 1u);
+                    next_number = i;
+                }
+            }
+        }
+        if program_holds(rank) == (key % 2u == 0u) || !next.found {
+            break;
+        }
+        reached = next.depth;
+        number = next_number;
+        hit = next;
+    }
+    hit.depth = depth;
+    return hit;
+}
+
 // Its colour, with its opacity in alpha.
-fn glass_color(hit: GlassHit, at: vec2f, ray: PixelRay) -> vec4f {
-    let rank = hit.key / 2u;
-    let span = hit.span;
-    let face = select(span.exit_face, span.entry_face, hit.key % 2u == 0u);
-    let normal = surface_normal(rank, at, hit.depth, face);
+fn glass_color(hit: GlassHit, at: LensRay, ray: PixelRay) -> vec4f {
+    let normal = surface_normal(hit.part, at, hit.depth, glass_face(hit));
     let facing = abs(dot(normal, normalize(ray.direction)));
-    let glass = lenses[rank].glass;
-    return vec4f(glass.color.rgb, glass_opacity(glass, facing, glass_silhouette(rank, at, span, ray)));
+    let glass = lenses[hit.key / 2u].glass;
+    return vec4f(glass.color.rgb, glass_opacity(glass, facing, glass_silhouette(hit.part, at, hit.span, ray)));
 }
 
 // Outward unit normal where the pixel's ray crosses the surface.
-fn surface_normal(rank: u32, at: vec2f, depth: f32, face: u32) -> vec3f {
-    if lenses[rank].form == FORM_HALF_SPACES {
-        return lens_data[lenses[rank].first_plane + 2u * face + 1u].xyz;
+fn surface_normal(part: u32, at: LensRay, depth: f32, face: u32) -> vec3f {
+    if parts[part].form == FORM_HALF_SPACES {
+        return lens_data[parts[part].first_plane + 2u * face + 1u].xyz;
     }
-    let ray = local_ray(rank, at);
+    let ray = local_ray(part, at);
     let p = ray.origin + ray.direction * depth;
     var n = p;
-    if lenses[rank].form == FORM_CONE {
-        let slope = lenses[rank].r1 - lenses[rank].r0;
-        n = vec3f(p.xy, -slope * (lenses[rank].r0 + slope * p.z));
+    if parts[part].form == FORM_MESH {
+        n = triangle_normal(part, face);
+    } else if parts[part].form == FORM_CONE {
+        let slope = parts[part].r1 - parts[part].r0;
+        n = vec3f(p.xy, -slope * (parts[part].r0 + slope * p.z));
         if face != CONE_SIDE {
             n = vec3f(0.0, 0.0, select(1.0, -1.0, face == 0u));
         }
-    } else if lenses[rank].form == FORM_CAPSULE {
-        n = p - vec3f(0.0, 0.0, clamp(p.z, 0.0, lenses[rank].length));
+    } else if parts[part].form == FORM_CAPSULE {
+        n = p - vec3f(0.0, 0.0, clamp(p.z, 0.0, parts[part].length));
     }
-    let turned = lenses[rank].normal_x.xyz * n.x + lenses[rank].normal_y.xyz * n.y + lenses[rank].normal_z.xyz * n.z;
-    return normalize_or(turned, vec3f(0.0));
+    return normalize_or(turned_normal(part, n), vec3f(0.0));
 }
 
-fn is_smooth_join(rank: u32, a: u32, b: u32) -> bool {
-    switch lenses[rank].form {
+fn is_smooth_join(part: u32, a: u32, b: u32) -> bool {
+    switch parts[part].form {
         case FORM_SPHERE, FORM_CAPSULE: {
             return true;
         }
@@ -83,10 +185,10 @@ fn is_smooth_join(rank: u32, a: u32, b: u32) -> bool {
 }
 
 // Pixels from the lens's outline in the picture.
-fn glass_silhouette(rank: u32, at: vec2f, span: Span, ray: PixelRay) -> f32 {
-    if (lenses[rank].flags & LENS_FLAT) != 0u {
-        let first = lenses[rank].first_corner;
-        let count = lenses[rank].corner_count;
+fn glass_silhouette(part: u32, at: LensRay, span: Span, ray: PixelRay) -> f32 {
+    if (parts[part].flags & PART_FLAT) != 0u {
+        let first = parts[part].first_corner;
+        let count = parts[part].corner_count;
         var nearest = FAR_AWAY;
         for (var i = 0u; i < count; i += 1u) {
             let a = lens_data[first + i].xyz;
@@ -99,8 +201,8 @@ fn glass_silhouette(rank: u32, at: vec2f, span: Span, ray: PixelRay) -> f32 {
     if frame.perspective != 0u && span.entry <= 0.0 {
         return FAR_AWAY;
     }
-    let entry_normal = surface_normal(rank, at, span.entry, span.entry_face);
-    let exit_normal = surface_normal(rank, at, span.exit, span.exit_face);
-    let join = select(0u, 1u, is_smooth_join(rank, span.entry_face, span.exit_face));
+    let entry_normal = surface_normal(part, at, span.entry, span.entry_face);
+    let exit_normal = surface_normal(part, at, span.exit, span.exit_face);
+    let join = select(0u, 1u, is_smooth_join(part, span.entry_face, span.exit_face));
     return silhouette_distance(ray, span.entry, entry_normal, span.exit, exit_normal, join);
 }

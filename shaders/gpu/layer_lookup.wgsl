@@ -4,7 +4,7 @@
 const LAYER_WORDS: u32 = 1u + WORDS;
 
 fn layer_count(tile: TileRecord, pixel: vec2u) -> u32 {
-    if tile.lens_count == 0u {
+    if tile.part_count == 0u {
         return 1u;
     }
     return layers[layers_at(tile, pixel)];
@@ -22,14 +22,19 @@ fn layer_set(at: u32, layer: u32) -> Set {
     return around;
 }
 
+// Whether a layer has begun at a depth; a boundary as close as two that merge is reached.
+fn is_begun(at: u32, layer: u32, depth: f32) -> bool {
+    return !starts_boundary(depth, layer_start(at, layer));
+}
+
 // The lenses around a depth: `entry <= depth < exit`.
 fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
-    if tile.lens_count == 0u {
+    if tile.part_count == 0u {
         return Set();
     }
     let at = layers_at(tile, pixel);
     for (var layer = layers[at]; layer > 0u; layer -= 1u) {
-        if layer_start(at, layer - 1u) <= depth {
+        if is_begun(at, layer - 1u, depth) {
             return layer_set(at, layer - 1u);
         }
     }

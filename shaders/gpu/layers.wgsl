@@ -1,38 +1,149 @@
 // Cuts the ray of each pixel that lenses touch into layers (SEMANTICS section 2).
 
 @group(2) @binding(0) var<storage, read_write> layers: array<u32>;
+// Two counters a sample; the second: for how many crossings with one mesh there must be room.
+@group(2) @binding(1) var<storage, read_write> needed: array<atomic<u32>>;
 
 const LAYER_WORDS: u32 = 1u + WORDS;
-// Boundaries closer than this share of the depth are one.
-const MERGE: f32 = 1e-5;
 // Workgroups in a row of the dispatch; twin of `tiles::DISPATCH_WIDTH`.
 const DISPATCH_WIDTH: u32 = 1024u;
 
-// While they are gathered, boundaries stand where the layers will: slot i holds a depth and a lens.
-fn put_boundary(at: u32, count: u32, depth: f32, rank: u32) {
-    var slot = count;
-    // Insertion by depth, then rank, from the back.
-    while slot > 0u {
-        let before = at + 1u + slot * LAYER_WORDS;
+// Where the boundaries of a pixel are gathered: behind slot `first` stand `count` of them, sorted.
+struct Gathering {
+    at: u32,
+    first: u32,
+    count: u32,
+}
+
+// While they are gathered, boundaries stand where the layers will: slot i holds a depth and a lens (or, while a lens
+// is worked on, the number of its part).
+fn slot_at(at: u32, slot: u32) -> u32 {
+    return at + 1u + slot * LAYER_WORDS;
+}
+
+fn put_boundary(g: ptr<function, Gathering>, depth: f32, number: u32) {
+    var slot = (*g).first + (*g).count;
+    // Insertion by depth, then number, from the back.
+    while slot > (*g).first {
+        let before = slot_at((*g).at, slot);
         let other = bitcast<f32>(layers[before]);
-        if other < depth || (other == depth && layers[before + 1u] < rank) {
+        if other < depth || (other == depth && layers[before + 1u] < number) {
             break;
         }
         layers[before + LAYER_WORDS] = layers[before];
         layers[before + LAYER_WORDS + 1u] = layers[before + 1u];
         slot -= 1u;
     }
-    let here = at + 1u + (slot + 1u) * LAYER_WORDS;
+    let here = slot_at((*g).at, slot + 1u);
     layers[here] = bitcast<u32>(depth);
-    layers[here + 1u] = rank;
+    layers[here + 1u] = number;
+    (*g).count += 1u;
 }
 
 fn put_layer(at: u32, layer: u32, depth: f32, around: Set) {
-    let here = at + 1u + layer * LAYER_WORDS;
+    let here = slot_at(at, layer);
     layers[here] = bitcast<u32>(depth);
     for (var w = 0u; w < WORDS; w += 1u) {
         layers[here + 1u + w] = around.words[w];
     }
+}
+
+fn flip(around: ptr<function, Set>, rank: u32) {
+    (*around).words[rank / 32u] ^= 1u << (rank % 32u);
+}
+
+// The boundaries of a lens that is one convex part.
+fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, part: u32, ray: LensRay) {
+    let rank = parts[part].lens;
+    let span = part_span(part, ray);
+    let entry = max(span.entry, frame.near);
+    let exit = min(span.exit, frame.far);
+    if !span.hit || entry >= exit {
+        return;
+    }
+    if entry > frame.near {
+        put_boundary(g, entry, rank);
+    } else {
+        flip(around, rank);
+    }
+    if exit < frame.far {
+        put_boundary(g, exit, rank);
+    }
+}
+
+// A ray enters or leaves a part.
+fn put_crossing(g: ptr<function, Gathering>, number: u32, depth: f32) {
+    if depth <= frame.near {
+        cross_part(number);
+    } else if depth < frame.far {
+        put_boundary(g, depth, number);
+    }
+}
+
+fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, ray: LensRay) {
+    if parts[part].form != FORM_MESH {
+        let span = part_span(part, ray);
+        if span.hit {
+            put_crossing(g, number, span.entry);
+            put_crossing(g, number, span.exit);
+        }
+        return;
+    }
+    let line = mesh_line(part, ray);
+    var crossing = before_mesh();
+    var count = 0u;
+    loop {
+        crossing = next_in_mesh(part, line, crossing);
+        if !crossing.found {
+            break;
+        }
+        if count < parts[part].crossing_room {
+            put_crossing(g, number, crossing.t);
+        }
+        count += 1u;
+    }
+    if count > parts[part].crossing_room {
+        // The frame is drawn again with more room.
+        atomicMax(&needed[2u * frame.sample_index + 1u], count);
+    }
+}
+
+// The boundaries of a lens of several parts or a mesh, whose parts on the tile are those from `entry` on; returns how
+// many those are. Only where the lens as a whole begins or ends is its boundary.
+fn put_compound(g: ptr<function, Gathering>, around: ptr<function, Set>, tile: TileRecord, entry: u32, ray: LensRay) -> u32 {
+    let rank = parts[tiles[tile.first_part + entry]].lens;
+    inside_parts = array<u32, PART_WORDS>();
+    // Crossings of parts stand behind the boundaries gathered so far.
+    var own = Gathering((*g).at, (*g).first + (*g).count, 0u);
+    var end = entry;
+    while end < tile.part_count {
+        let part = tiles[tile.first_part + end];
+        if parts[part].lens != rank {
+            break;
+        }
+        put_part(&own, part, part - lenses[rank].first_part, ray);
+        end += 1u;
+    }
+    var held = program_holds(rank);
+    if held {
+        flip(around, rank);
+    }
+    // Boundaries never outnumber the crossings read, so none is overwritten before it has been read.
+    let last = own.first + own.count;
+    var next = own.first + 1u;
+    while next <= last {
+        let depth = bitcast<f32>(layers[slot_at(own.at, next)]);
+        while next <= last && !starts_boundary(depth, bitcast<f32>(layers[slot_at(own.at, next)])) {
+            cross_part(layers[slot_at(own.at, next) + 1u]);
+            next += 1u;
+        }
+        let holds = program_holds(rank);
+        if holds != held {
+            put_boundary(g, depth, rank);
+            held = holds;
+        }
+    }
+    return end - entry;
 }
 
 @compute @workgroup_size(16, 16)
@@ -49,47 +160,37 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
     if any(pixel >= frame.window_size) {
         return;
     }
-    let at = layers_at(tile, pixel);
-    let point = sample_point(pixel);
+    let ray = lens_ray(sample_point(pixel));
     var around = Set();
-    var count = 0u;
-    for (var i = 0u; i < tile.lens_count; i += 1u) {
-        let rank = tiles[tile.first_lens + i];
-        let span = lens_span(rank, point);
-        let entry = max(span.entry, frame.near);
-        let exit = min(span.exit, frame.far);
-        if !span.hit || entry >= exit {
-            continue;
-        }
-        if entry > frame.near {
-            put_boundary(at, count, entry, rank);
-            count += 1u;
+    var found = Gathering(layers_at(tile, pixel), 0u, 0u);
+    var entry = 0u;
+    while entry < tile.part_count {
+        let part = tiles[tile.first_part + entry];
+        if !COMPOUNDS || lenses[parts[part].lens].token_count == 0u {
+            put_simple(&found, &around, part, ray);
+            entry += 1u;
         } else {
-            around.words[rank / 32u] |= 1u << (rank % 32u);
-        }
-        if exit < frame.far {
-            put_boundary(at, count, exit, rank);
-            count += 1u;
+            entry += put_compound(&found, &around, tile, entry, ray);
         }
     }
-    put_layer(at, 0u, frame.near, around);
+    layers[found.at] = put_layers(found, &around);
+}
+
+// Writes the layers between the boundaries in place and returns their number.
+fn put_layers(found: Gathering, around: ptr<function, Set>) -> u32 {
+    put_layer(found.at, 0u, frame.near, *around);
     // A layer is never written before the boundaries that stand in its place have been read.
     var written = 1u;
     var next = 1u;
-    while next <= count {
-        let depth = bitcast<f32>(layers[at + 1u + next * LAYER_WORDS]);
-        while next <= count {
-            let here = at + 1u + next * LAYER_WORDS;
-            if bitcast<f32>(layers[here]) - depth > MERGE * abs(depth) {
-                break;
-            }
-            // Crosses its surface: in or out.
-            let rank = layers[here + 1u];
-            around.words[rank / 32u] ^= 1u << (rank % 32u);
+    while next <= found.count {
+        let depth = bitcast<f32>(layers[slot_at(found.at, next)]);
+        while next <= found.count && !starts_boundary(depth, bitcast<f32>(layers[slot_at(found.at, next)])) {
+            // In or out.
+            flip(around, layers[slot_at(found.at, next) + 1u]);
             next += 1u;
         }
-        put_layer(at, written, depth, around);
+        put_layer(found.at, written, depth, *around);
         written += 1u;
     }
-    layers[at] = written;
+    return written;
 }

@@ -5,31 +5,37 @@
 
 fn composited(pixel: vec2u) -> vec4f {
     let ray = pixel_ray(pixel);
-    let at = sample_point(pixel);
+    let at = lens_ray(sample_point(pixel));
     let tile = tile_at(pixel);
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
-    var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var last_glass = GlassHit(-FAR_AWAY, 0u, false, no_span());
+    var pick = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
+    var glass = no_glass(-FAR_AWAY, 0u);
+    var needs_pick = true;
+    var needs_glass = true;
     loop {
-        let pick = next_fragment(pixel, opaque, last);
-        let glass = next_glass(tile, at, last_glass);
-        if glass.found && glass.depth < pick.depth {
+        if needs_pick {
+            pick = next_fragment(pixel, opaque, pick);
+        }
+        if needs_glass {
+            glass = next_glass(tile, pixel, glass);
+        }
+        needs_glass = glass.found && glass.depth < pick.depth;
+        needs_pick = !needs_glass;
+        if needs_glass {
             let color = glass_color(glass, at, ray);
             front = over(front, color.rgb, color.a);
-            last_glass = glass;
             continue;
         }
         if !pick.found {
             break;
         }
-        let shaded = shade(classified(pick, tile, pixel), ray);
+        let shaded = shade(classified(pick, tile, pixel, ray), ray);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);
         if opacity >= OPAQUE_FROM {
             break;
         }
-        last = pick;
     }
     return front;
 }

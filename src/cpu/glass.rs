@@ -28,7 +28,7 @@ pub fn find(plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay, hit
             if !part.form.is_seen(crossing.face) {
                 continue;
             }
-            let facing = part.normal(ray, crossing).dot(ray.direction.normalize()).abs();
+            let facing = lens.volume.normal(ray, boundary).dot(ray.direction.normalize()).abs();
             let silhouette = silhouette(plan, part, ray, &boundary.span, pixel);
             let opacity = wgsl::glass_opacity(record(glass), facing as f32, silhouette);
             if opacity > 0.0 {

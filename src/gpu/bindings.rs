@@ -28,7 +28,7 @@ impl Layouts {
         let compute = wgpu::ShaderStages::COMPUTE;
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let everywhere = compute | fragment | wgpu::ShaderStages::VERTEX;
-        let plan = [Uniform, Read, Read, Read, Read, Read, Read];
+        let plan = [Uniform, Read, Read, Read, Read, Read, Read, Read, Read, Read];
         Self {
             scene: layout(
                 device,
@@ -37,7 +37,7 @@ impl Layouts {
                 &[Read, Read, Read, Read, Read, TexturePages, TexturePages],
             ),
             plan: layout(device, "plan", everywhere, &plan),
-            layers: layout(device, "layers", compute | fragment, &[ReadWrite]),
+            layers: layout(device, "layers", compute | fragment, &[ReadWrite, ReadWrite]),
             visibility: layout(device, "visibility", fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
             resolve: layout(device, "resolve", compute, &[Read, Read, Read, IdTexture, ReadWrite]),
             finish: layout(device, "finish", fragment, &[Read]),

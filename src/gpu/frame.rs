@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::lens_data::AffineRay;
+use super::part_data::AffineRay;
 use super::records::{FrameRecord, all_words, extended};
 use super::tiles::Tiles;
 use super::{Engine, Window};
@@ -42,7 +42,7 @@ pub fn samples(plan: &Plan, aovs: bool) -> Vec<Sample> {
 pub fn passes(engine: Engine, tiles: &Tiles) -> u32 {
     match engine {
         Engine::Fused => 1,
-        Engine::Peel => 2 * tiles.most_lenses + 1,
+        Engine::Peel => tiles.most_layers,
     }
 }
 
@@ -89,6 +89,9 @@ impl FrameShape<'_> {
             fragment_capacity: self.fragment_capacity,
             active_tiles: self.tiles.active,
             target_is_srgb: u32::from(self.target_is_srgb),
+            lens_count: plan.lenses.len() as u32,
+            rule_count: plan.rules.len() as u32,
+            pad: [0; 2],
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

@@ -8,7 +8,8 @@ use super::pipelines::PipelineStore;
 use super::readback::{Readback, row_bytes};
 use super::renderer::Renderer;
 use super::targets::FRAGMENT_BYTES;
-use super::{AdapterChoice, Error, RenderOptions, Window, aov, caps};
+use super::upload::check_size;
+use super::{AdapterChoice, Error, RenderOptions, Room, Window, aov, caps};
 use crate::frame::{Aovs, Frame, RegionTable};
 use crate::lens::LayerStart;
 use crate::plan::Plan;
@@ -126,17 +127,25 @@ impl Headless {
         window: Window,
     ) -> Result<Vec<Vec<LayerStart>>, Error> {
         let options = RenderOptions { aovs: true, ..RenderOptions::default() };
-        let job = renderer.prepare(&self.device, scene, plan, window, options)?;
-        let mut encoder = self.encoder();
-        for sample in job.samples.iter().filter(|sample| sample.maps) {
-            job.encode_layers(&mut encoder, sample);
+        loop {
+            let job = renderer.prepare(&self.device, scene, plan, window, options)?;
+            let mut encoder = self.encoder();
+            for sample in job.samples.iter().filter(|sample| sample.maps) {
+                job.encode_layers(&mut encoder, sample);
+            }
+            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
+            let copy = Readback::of_buffer(&self.device, &mut encoder, &job.targets.layers);
+            self.queue.submit([encoder.finish()]);
+            let needed = Room::needed(&counts.bytes(&self.device)?);
+            let bytes = copy.bytes(&self.device)?;
+            self.check()?;
+            if job.room.holds(needed) {
+                let words: Vec<u32> =
+                    bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+                return Ok(job.tiles.decode(&words, window.size, plan.view.near));
+            }
+            renderer.reserve(needed);
         }
-        let copy = Readback::of_buffer(&self.device, &mut encoder, &job.targets.layers);
-        self.queue.submit([encoder.finish()]);
-        let bytes = copy.bytes(&self.device)?;
-        self.check()?;
-        let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-        Ok(job.tiles.decode(&words, window.size, plan.view.near))
     }
 
     #[expect(clippy::too_many_arguments, reason = "the parts of one call, handed on as they came")]
@@ -157,20 +166,18 @@ impl Headless {
                 timings.prepare += start.elapsed().as_secs_f64();
             }
             let needed = self.draw(&job, timings, picture)?;
-            if needed <= job.fragment_capacity {
+            if job.room.holds(needed) {
                 return Ok(());
             }
-            let (bytes, allowed) = (needed * FRAGMENT_BYTES, renderer.largest_buffer());
-            if bytes > allowed {
-                return Err(Error::TooLarge { what: "the translucent fragments".into(), needed: bytes, allowed });
-            }
+            check_size(renderer.largest_buffer(), "the translucent fragments", needed.fragments * FRAGMENT_BYTES)?;
             // A little more, so that the next frame of an animation fits, too.
-            renderer.reserve_fragments((needed + needed / 8).min(allowed / FRAGMENT_BYTES));
+            let fragments = (needed.fragments + needed.fragments / 8).min(renderer.largest_buffer() / FRAGMENT_BYTES);
+            renderer.reserve(Room { fragments, ..needed });
         }
     }
 
-    /// Draws a window into the picture and says how many fragments its lists needed.
-    fn draw(&self, job: &Job, timings: &mut Option<Timings>, picture: &mut Picture) -> Result<u64, Error> {
+    /// Draws a window into the picture and says how much room it needed; where it had less, the picture stays as it is.
+    fn draw(&self, job: &Job, timings: &mut Option<Timings>, picture: &mut Picture) -> Result<Room, Error> {
         let [width, height] = job.window.size;
         let target = self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
@@ -193,12 +200,12 @@ impl Headless {
         stages.end()?;
         let start = Instant::now();
         let mut encoder = self.encoder();
-        let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed_fragments);
+        let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
         let pixels = Readback::of_texture(&self.device, &mut encoder, &target);
         let maps = job.maps.as_ref().map(|maps| Readback::of_buffer(&self.device, &mut encoder, maps));
         self.queue.submit([encoder.finish()]);
-        let needed = largest(&counts.bytes(&self.device)?);
-        if needed <= job.fragment_capacity {
+        let needed = Room::needed(&counts.bytes(&self.device)?);
+        if job.room.holds(needed) {
             picture.store(&job.window, &pixels.bytes(&self.device)?);
             if let (Some(aovs), Some(maps)) = (&mut picture.aovs, maps) {
                 aov::store(
@@ -283,13 +290,10 @@ impl Picture {
     }
 }
 
-fn largest(counts: &[u8]) -> u64 {
-    counts.chunks_exact(4).map(|b| u64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))).max().unwrap_or(0)
-}
-
 /// The halves of a window that outgrew the device, the upper last so that it is drawn first; any other error stays one.
 fn smaller(window: &Window, error: Error) -> Result<[Window; 2], Error> {
-    let too_large = matches!(&error, Error::TooLarge { what, .. } if !what.starts_with("the scene's"))
+    let is_whole = |what: &str| what.starts_with("the scene's") || what.starts_with("the plan's");
+    let too_large = matches!(&error, Error::TooLarge { what, .. } if !is_whole(what))
         || matches!(&error, Error::TextureTooLarge { name, .. } if name == "of the picture");
     match (too_large, window.halves()) {
         (true, Some([first, second])) => Ok([second, first]),

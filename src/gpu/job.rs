@@ -3,11 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Window;
 use super::draws::Draw;
 use super::frame::Sample;
 use super::targets::Targets;
 use super::tiles::{DISPATCH_WIDTH, Tiles};
+use super::{Room, Window};
 use crate::lens::PixelRect;
 
 /// A frame ready to be encoded, stage by stage.
@@ -15,8 +15,9 @@ use crate::lens::PixelRect;
 pub struct Job {
     pub samples: Vec<Sample>,
     pub window: Window,
-    pub needed_fragments: wgpu::Buffer,
-    pub fragment_capacity: u64,
+    /// Counters of the room that each sample needs.
+    pub needed: wgpu::Buffer,
+    pub room: Room,
     /// What lies at the pixel centres, when asked for.
     pub maps: Option<wgpu::Buffer>,
     pub words: u32,

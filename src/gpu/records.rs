@@ -1,6 +1,7 @@
 //! Records as the shaders read them: twins of the structs in `shaders/gpu/common.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
+use glam::DAffine3;
 
 use crate::plan::{GlassRecord, LensSet};
 
@@ -15,11 +16,14 @@ pub const FORM_SPHERE: u32 = 1;
 pub const FORM_CONE: u32 = 2;
 pub const FORM_CAPSULE: u32 = 3;
 pub const FORM_HALF_SPACES: u32 = 4;
+pub const FORM_MESH: u32 = 5;
 
-pub const LENS_FLAT: u32 = 1;
-pub const LENS_GLASS: u32 = 2;
-pub const LENS_DEPTH_MAP: u32 = 4;
-pub const LENS_HOLDS_EYE: u32 = 8;
+pub const LENS_GLASS: u32 = 1;
+pub const LENS_BY_OBJECT: u32 = 2;
+
+pub const PART_FLAT: u32 = 1;
+pub const PART_DEPTH_MAP: u32 = 2;
+pub const PART_HOLDS_EYE: u32 = 4;
 
 /// One sample, or one layer of one, of a frame.
 #[repr(C)]
@@ -52,15 +56,18 @@ pub struct FrameRecord {
     pub fragment_capacity: u32,
     pub active_tiles: u32,
     pub target_is_srgb: u32,
+    pub lens_count: u32,
+    pub rule_count: u32,
+    pub pad: [u32; 2],
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }
 
-/// One item or a chunk of its triangles; its masks follow.
+/// One way in which an item is shown, or a chunk of its triangles; its masks follow.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ItemRecord {
-    /// Rows of the map from local space to the space around the eye.
+    /// Rows of the map from local space to where it is shown around the eye.
     pub row_x: [f32; 4],
     pub row_y: [f32; 4],
     pub row_z: [f32; 4],
@@ -82,22 +89,60 @@ pub struct ItemRecord {
     pub uv1: u32,
     /// Bit i: its material has a texture in its i-th slot.
     pub slots: u32,
+    /// The centre of its node where it is in place, around the eye.
+    pub center: [f32; 3],
+    pub first_step: u32,
+    pub step_count: u32,
 }
 
-/// One lens; the set that it hides follows.
+/// A lens that moves content, on the way down from a shown point.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct StepRecord {
+    /// Rows of the map, around the eye, from the shown point to where the lenses below are asked.
+    pub row_x: [f32; 4],
+    pub row_y: [f32; 4],
+    pub row_z: [f32; 4],
+    pub rank: u32,
+    pub pad: [u32; 3],
+}
+
+/// One lens, or an overlap rule behind them; the set that it hides follows.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct LensRecord {
-    /// The pixel's ray in the lens's own space.
+    pub glass: GlassRecord,
+    pub flags: u32,
+    /// Its parts; of a rule the sets of its names, in words.
+    pub first_part: u32,
+    pub part_count: u32,
+    /// Its program; none where a lens is one convex part.
+    pub first_token: u32,
+    pub token_count: u32,
+    pub first_op: u32,
+    pub op_count: u32,
+    pub soft: f32,
+}
+
+/// One solid of a lens volume.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct PartRecord {
+    /// The pixel's ray in the part's own space.
     pub ray_fixed: [f32; 4],
     pub ray_base: [f32; 4],
     pub ray_dx: [f32; 4],
     pub ray_dy: [f32; 4],
-    /// Columns of the map from normals in the lens's own space.
+    /// Columns of the map from normals in the part's own space.
     pub normal_x: [f32; 4],
     pub normal_y: [f32; 4],
     pub normal_z: [f32; 4],
-    pub glass: GlassRecord,
+    /// Rows of the map from the space around the eye.
+    pub local_x: [f32; 4],
+    pub local_y: [f32; 4],
+    pub local_z: [f32; 4],
+    /// Rank of its lens.
+    pub lens: u32,
     pub form: u32,
     pub flags: u32,
     pub first_plane: u32,
@@ -105,17 +150,21 @@ pub struct LensRecord {
     pub hidden: u32,
     pub first_corner: u32,
     pub corner_count: u32,
-    pub first_op: u32,
-    pub op_count: u32,
     pub r0: f32,
     pub r1: f32,
     pub length: f32,
     /// Where its depth map starts behind the layers, in words, and the pixels of the window that it covers.
     pub map_first: u32,
-    pub map_pad: u32,
     pub map_min: [u32; 2],
     pub map_size: [u32; 2],
-    pub pad: [u32; 2],
+    /// Words of a mesh: its nodes, triangles and corners.
+    pub first_node: u32,
+    pub node_count: u32,
+    pub first_triangle: u32,
+    pub first_vertex: u32,
+    /// For how many of its crossings a pixel has room.
+    pub crossing_room: u32,
+    pub pad: [u32; 3],
 }
 
 /// How a texture is sampled and where its levels lie on the pages.
@@ -132,11 +181,6 @@ pub struct TextureInfo {
     pub levels: [[u32; 4]; 16],
 }
 
-/// Words of a lens set on the device.
-pub fn set_words(lenses: usize) -> u32 {
-    lenses.div_ceil(32).max(1) as u32
-}
-
 /// The words of a set.
 pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
     (0..words as usize).map(|i| set.word(i))
@@ -149,4 +193,11 @@ pub fn all_words(set: &LensSet) -> [u32; 12] {
 
 pub fn extended(v: glam::DVec3) -> [f32; 4] {
     v.as_vec3().extend(0.0).to_array()
+}
+
+/// Rows of a map as the shaders take them.
+pub fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
+    let rows = map.matrix3.transpose();
+    [(rows.x_axis, map.translation.x), (rows.y_axis, map.translation.y), (rows.z_axis, map.translation.z)]
+        .map(|(row, shift)| row.extend(shift).as_vec4().to_array())
 }

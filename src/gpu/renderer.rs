@@ -2,21 +2,22 @@
 
 use std::sync::Arc;
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::bindings;
 use super::depth_maps::DepthMaps;
-use super::draws::{self, Draw, Part};
+use super::draws::{self, Draw, Piece};
 use super::frame::{self, FrameShape, Sample};
+use super::item_data::ItemData;
 use super::job::{ComputeSteps, Faces, Groups, Job};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
-use super::records::{FrameRecord, set_words};
+use super::plan_group::{PlanContents, plan_buffer};
+use super::records::FrameRecord;
+use super::room::COUNTERS;
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
 use super::tiles::Tiles;
-use super::upload::{SceneData, check_size, largest_buffer};
-use super::{Engine, Error, RenderOptions, Window, aov};
-use crate::plan::{LightRecord, Plan};
+use super::upload::{SceneData, largest_buffer};
+use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov};
+use crate::plan::Plan;
 use crate::scene::Scene;
 
 /// Draws plans over one scene. Built once; a frame uploads the plan and nothing of the scene.
@@ -27,8 +28,8 @@ pub struct Renderer {
     store: Arc<PipelineStore>,
     scene: SceneData,
     targets: Option<Arc<Targets>>,
-    /// The most fragments that lists have needed so far.
-    needed_fragments: u64,
+    /// The most room that was needed so far.
+    reserved: Room,
     /// Bytes.
     largest_buffer: u64,
 }
@@ -36,10 +37,10 @@ pub struct Renderer {
 /// What a host can learn about a frame after it has submitted it.
 #[derive(Debug)]
 pub struct Encoded {
-    /// For each sample the fragments that its lists needed (u32); more than `fragment_capacity` means that the frame
-    /// lacks some and must be drawn again after [`Renderer::reserve_fragments`].
-    pub needed_fragments: wgpu::Buffer,
-    pub fragment_capacity: u64,
+    /// What the frame needed, for [`Room::needed`]; where `room` does not hold it, the picture is not right and the
+    /// frame must be drawn again after [`Renderer::reserve`].
+    pub needed: wgpu::Buffer,
+    pub room: Room,
 }
 
 impl Renderer {
@@ -62,7 +63,7 @@ impl Renderer {
     ) -> Result<Self, Error> {
         let scene = SceneData::new(device, queue, &store.layouts.scene, scene)?;
         let largest_buffer = largest_buffer(device);
-        Ok(Self { store, scene, targets: None, needed_fragments: 0, largest_buffer })
+        Ok(Self { store, scene, targets: None, reserved: Room::FIRST, largest_buffer })
     }
 
     /// Encodes a whole picture of a plan into `target`, which is as large as the plan's view.
@@ -82,7 +83,7 @@ impl Renderer {
             job.encode_resolve(encoder, sample);
         }
         job.encode_finish(encoder, target);
-        Ok(Encoded { needed_fragments: job.needed_fragments, fragment_capacity: job.fragment_capacity })
+        Ok(Encoded { needed: job.needed, room: job.room })
     }
 
     /// Allows no buffer of a frame to be larger than so many bytes, to leave memory to others; never more than the
@@ -96,14 +97,14 @@ impl Renderer {
         self.largest_buffer
     }
 
-    /// Makes room for at least so many listed fragments from the next frame on.
-    pub fn reserve_fragments(&mut self, count: u64) {
-        self.needed_fragments = self.needed_fragments.max(count);
+    /// Makes at least so much room from the next frame on.
+    pub fn reserve(&mut self, room: Room) {
+        self.reserved = self.reserved.max(room);
     }
 
-    /// Listed fragments that the next frame has room for at least.
-    pub fn reserved_fragments(&self) -> u64 {
-        self.needed_fragments
+    /// The room that the next frame has at least.
+    pub fn reserved(&self) -> Room {
+        self.reserved
     }
 
     /// Uploads a plan and checks that its frame fits the device.
@@ -115,16 +116,13 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
-        if plan.instances.len() > plan.items.len() || !plan.rules.is_empty() || plan.lenses.iter().any(|l| l.soft > 0.0)
-        {
-            return Err(Error::Device("movers, rules and soft lenses are not drawn by the GPU yet".into()));
-        }
-        let words = set_words(plan.lenses.len() + plan.rules.len());
-        let tiles = Tiles::new(plan, &window, words);
+        let needs = Needs::of(plan);
+        let words = needs.set_words;
+        let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
         let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
-        let fragments = self.needed_fragments.max(first_guess(plan, &window));
+        let fragments = self.reserved.fragments.max(first_guess(plan, &window));
         let targets = self.targets(device, &window, depth_maps.end_word, fragments)?;
-        let fragment_capacity = targets.fragments.size() / FRAGMENT_BYTES;
+        let room = Room { fragments: targets.fragments.size() / FRAGMENT_BYTES, ..self.reserved };
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
         let record_stride = record_stride(device);
@@ -132,37 +130,38 @@ impl Renderer {
             plan,
             window,
             tiles: &tiles,
-            fragment_capacity: fragment_capacity.min(u64::from(u32::MAX)) as u32,
+            fragment_capacity: room.fragments.min(u64::from(u32::MAX)) as u32,
             target_is_srgb: self.store.target.is_srgb(),
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
-        let needed_fragments = work_buffer(device, self.largest_buffer, "fragment counters", 4 * samples.len() as u64)?;
+        let counters = 4 * COUNTERS * samples.len() as u64;
+        let needed = work_buffer(device, self.largest_buffer, "counters of samples", counters)?;
         let maps = options
             .aovs
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
-        let parts = draws::parts(scene, plan, &self.scene);
-        let plan_group = self.plan_group(
-            device,
+        let pieces = draws::pieces(scene, plan, &self.scene);
+        let plan_group = PlanContents {
             plan,
-            &tiles,
-            &depth_maps,
-            &draws::record_bytes(scene, plan, &parts, words),
-            &frames,
-        )?;
-        let groups = self.groups(device, plan_group, &targets, &needed_fragments, maps.as_ref());
-        let pipelines = self.store.get(words);
+            frames: &frames,
+            items: &ItemData::new(scene, plan, &pieces, words),
+            lenses: &LensData::new(plan, words, &depth_maps, room.crossings),
+            tiles: &tiles.words,
+        }
+        .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
+        let groups = self.groups(device, plan_group, &targets, &needed, maps.as_ref());
+        let pipelines = self.store.get(needs);
         Ok(Job {
             samples,
             window,
-            needed_fragments,
-            fragment_capacity,
+            needed,
+            room,
             maps,
             words,
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, &parts, options.engine, &pipelines),
+            draws: self.draws(scene, plan, &window, &pieces, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
@@ -185,7 +184,7 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         window: &Window,
-        parts: &[Part],
+        pieces: &[Piece],
         engine: Engine,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
@@ -194,7 +193,7 @@ impl Renderer {
             Engine::Fused => Program::Fused,
             Engine::Peel => Program::Peel,
         };
-        draws::draws(scene, plan, window, parts)
+        draws::draws(scene, plan, window, pieces)
             .into_iter()
             .map(|draw| {
                 let pipeline = pipelines.draw(&self.store, program(&draw), draw.culling);
@@ -206,7 +205,13 @@ impl Renderer {
     fn faces(&self, device: &wgpu::Device, maps: &DepthMaps, pipelines: &Pipelines) -> Result<Faces, Error> {
         let bytes = bytemuck::cast_slice(&maps.vertices);
         Ok(Faces {
-            vertices: plan_buffer(device, "faces of lenses", bytes, wgpu::BufferUsages::VERTEX)?,
+            vertices: plan_buffer(
+                device,
+                self.largest_buffer,
+                "the window's faces of lenses",
+                bytes,
+                wgpu::BufferUsages::VERTEX,
+            )?,
             count: maps.vertices.len() as u32,
             pipeline: pipelines.depth_map(&self.store),
             bytes: 4 * maps.first_word..4 * maps.end_word,
@@ -230,52 +235,6 @@ impl Renderer {
         Ok(targets)
     }
 
-    fn plan_group(
-        &self,
-        device: &wgpu::Device,
-        plan: &Plan,
-        tiles: &Tiles,
-        depth_maps: &DepthMaps,
-        items: &[u8],
-        frames: &[u8],
-    ) -> Result<wgpu::BindGroup, Error> {
-        let words = set_words(plan.lenses.len() + plan.rules.len());
-        let lens_data = LensData::new(plan, words, depth_maps);
-        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
-        let uniform = wgpu::BufferUsages::UNIFORM;
-        let storage = wgpu::BufferUsages::STORAGE;
-        let buffers = [
-            ("frames", frames, uniform),
-            ("items", items, storage),
-            ("lenses", &lens_data.lenses, storage),
-            ("lens data", bytemuck::cast_slice(&lens_data.vectors), storage),
-            ("filters", bytemuck::cast_slice(&plan.ops), storage),
-            ("lights", bytemuck::cast_slice(&lights), storage),
-            ("tiles", bytemuck::cast_slice(&tiles.words), storage),
-        ]
-        .map(|(label, bytes, usage)| plan_buffer(device, label, bytes, usage));
-        let [frames, items, lenses, vectors, ops, lights, tiles] = buffers;
-        let record = wgpu::BufferBinding {
-            buffer: &frames?,
-            offset: 0,
-            size: wgpu::BufferSize::new(size_of::<FrameRecord>() as u64),
-        };
-        Ok(bindings::group(
-            device,
-            "plan",
-            &self.store.layouts.plan,
-            &[
-                wgpu::BindingResource::Buffer(record),
-                items?.as_entire_binding(),
-                lenses?.as_entire_binding(),
-                vectors?.as_entire_binding(),
-                ops?.as_entire_binding(),
-                lights?.as_entire_binding(),
-                tiles?.as_entire_binding(),
-            ],
-        ))
-    }
-
     fn groups(
         &self,
         device: &wgpu::Device,
@@ -287,6 +246,7 @@ impl Renderer {
         let layers = || targets.layers.as_entire_binding();
         let heads = || targets.heads.as_entire_binding();
         let fragments = || targets.fragments.as_entire_binding();
+        let counters = || needed.as_entire_binding();
         let accumulated = || targets.accumulated.as_entire_binding();
         let resolve = |output| {
             let ids = wgpu::BindingResource::TextureView(&targets.ids);
@@ -300,12 +260,12 @@ impl Renderer {
         Groups {
             scene: self.scene.bind_group.clone(),
             plan,
-            layers: bindings::group(device, "layers", &self.store.layouts.layers, &[layers()]),
+            layers: bindings::group(device, "layers", &self.store.layouts.layers, &[layers(), counters()]),
             visibility: bindings::group(
                 device,
                 "visibility",
                 &self.store.layouts.visibility,
-                &[layers(), heads(), fragments(), needed.as_entire_binding()],
+                &[layers(), heads(), fragments(), counters()],
             ),
             resolve: resolve(accumulated()),
             maps: maps.map(|maps| resolve(maps.as_entire_binding())),
@@ -317,7 +277,8 @@ impl Renderer {
 /// Fragments to make room for at first: two a pixel where something may be translucent.
 fn first_guess(plan: &Plan, window: &Window) -> u64 {
     let pixels = window.pixels();
-    if plan.items.iter().any(|item| item.translucent) {
+    // A rule may hold anywhere.
+    if plan.items.iter().any(|item| item.translucent) || plan.rules.iter().any(|rule| rule.translucent) {
         return 2 * pixels;
     }
     let lenses = plan.lenses.iter().filter(|lens| lens.translucent);
@@ -338,17 +299,4 @@ fn frame_bytes(shape: &FrameShape, samples: &[Sample], passes: u32, stride: u32)
         }
     }
     bytes
-}
-
-/// A buffer of the plan, never smaller than any record.
-fn plan_buffer(
-    device: &wgpu::Device,
-    label: &str,
-    bytes: &[u8],
-    usage: wgpu::BufferUsages,
-) -> Result<wgpu::Buffer, Error> {
-    check_size(largest_buffer(device), &format!("the plan's {label}"), bytes.len() as u64)?;
-    let mut contents = bytes.to_vec();
-    contents.resize(contents.len().max(1024), 0);
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents: &contents, usage }))
 }

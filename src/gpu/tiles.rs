@@ -1,8 +1,8 @@
-//! Which lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
+//! Which parts of lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
 
 use super::Window;
-use crate::lens::{LayerStart, LensSet};
-use crate::plan::Plan;
+use crate::lens::{LayerStart, LensSet, Solid};
+use crate::plan::{Lens, Plan};
 
 /// Side of a tile in pixels; `TILE` of the shaders.
 pub const TILE: u32 = 16;
@@ -12,35 +12,41 @@ pub const DISPATCH_WIDTH: u32 = 1024;
 /// The tiles of a window as the shaders read them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tiles {
-    /// Four words a tile (first word of its layers, words a pixel, first lens, lenses), the numbers of the tiles
-    /// that lenses touch, and the lists of lenses.
+    /// Four words a tile (first word of its layers, words a pixel, first part, parts), the numbers of the tiles
+    /// that lenses touch, and the lists of parts.
     pub words: Vec<u32>,
     /// Tiles that lenses touch.
     pub active: u32,
     /// Words that the layers of all pixels of those tiles need.
     pub layer_words: u64,
-    /// The most lenses on one tile.
-    pub most_lenses: u32,
+    /// The most layers that a pixel has room for.
+    pub most_layers: u32,
+    /// Words of a layer.
+    stride: u32,
 }
 
 impl Tiles {
-    /// A pixel of a tile with n lenses has at most 2n + 1 layers, so storage is settled here and nothing can overflow.
-    pub fn new(plan: &Plan, window: &Window, set_words: u32) -> Self {
+    /// A ray crosses each of n convex parts at most twice, so a pixel has at most 2n + 1 layers, and storage for them is
+    /// settled here. For each mesh there is room for so many `crossings`.
+    pub fn new(plan: &Plan, window: &Window, set_words: u32, crossings: u32) -> Self {
         let columns = window.size[0].div_ceil(TILE);
         let rows = window.size[1].div_ceil(TILE);
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
-        for (rank, lens) in (0u32..).zip(&plan.lenses) {
-            let rect = window.local(&lens.rect);
+        let parts = || plan.lenses.iter().flat_map(|lens| lens.volume.parts.iter().map(move |solid| (lens, solid)));
+        for (part, (lens, solid)) in (0u32..).zip(parts()) {
+            // A part may reach beyond its lens, when another part cuts it.
+            let rect = window.local(&solid.pixel_rect(&plan.view).intersection(lens.rect));
             if rect.is_empty() {
                 continue;
             }
             for y in rect.min[1] / TILE..rect.max[1].div_ceil(TILE) {
                 for x in rect.min[0] / TILE..rect.max[0].div_ceil(TILE) {
-                    lists[(y * columns + x) as usize].push(rank);
+                    lists[(y * columns + x) as usize].push(part);
                 }
             }
         }
-        Self::from_lists(&lists, set_words)
+        let room = |(_, solid): (&Lens, &Solid)| if solid.form.is_convex() { 2 } else { crossings };
+        Self::from_lists(&lists, &parts().map(room).collect::<Vec<u32>>(), set_words)
     }
 
     /// The layers of each pixel of a window of the given width and height, read back from the device.
@@ -50,37 +56,39 @@ impl Tiles {
         pixels
             .map(|(x, y)| {
                 let tile = 4 * (y / TILE * columns + x / TILE) as usize;
-                let [first, stride, _, lenses] = [0, 1, 2, 3].map(|i| self.words[tile + i]);
-                if lenses == 0 {
+                let [first, stride, _, parts] = [0, 1, 2, 3].map(|i| self.words[tile + i]);
+                if parts == 0 {
                     return vec![LayerStart { depth: near, set: LensSet::EMPTY }];
                 }
                 let at = (first + (y % TILE * TILE + x % TILE) * stride) as usize;
-                let layer_words = ((stride - 1) / (2 * lenses + 1)) as usize;
                 let layer = |words: &[u32]| LayerStart {
                     depth: f64::from(f32::from_bits(words[0])),
                     set: LensSet::from_words(&words[1..]),
                 };
-                layers[at + 1..].chunks_exact(layer_words).take(layers[at] as usize).map(layer).collect()
+                layers[at + 1..].chunks_exact(self.stride as usize).take(layers[at] as usize).map(layer).collect()
             })
             .collect()
     }
 
-    fn from_lists(lists: &[Vec<u32>], set_words: u32) -> Self {
+    /// `room`: how many boundaries each part may have on a ray.
+    fn from_lists(lists: &[Vec<u32>], room: &[u32], set_words: u32) -> Self {
         let active: Vec<u32> = (0u32..).zip(lists).filter(|(_, list)| !list.is_empty()).map(|(tile, _)| tile).collect();
+        let layer = 1 + set_words;
         let mut words = Vec::new();
-        let mut layer_words = 0u64;
-        let mut next_lens = (4 * lists.len() + active.len()) as u32;
+        let (mut layer_words, mut most_layers) = (0u64, 1);
+        let mut next_part = (4 * lists.len() + active.len()) as u32;
         for list in lists {
             let count = list.len() as u32;
-            let stride = if count == 0 { 0 } else { 1 + (2 * count + 1) * (1 + set_words) };
-            words.extend([layer_words as u32, stride, next_lens, count]);
+            let boundaries: u32 = list.iter().map(|part| room[*part as usize]).sum();
+            let stride = if count == 0 { 0 } else { 1 + (boundaries + 1) * layer };
+            most_layers = most_layers.max(boundaries + 1);
+            words.extend([layer_words as u32, stride, next_part, count]);
             layer_words += u64::from(stride) * u64::from(TILE * TILE);
-            next_lens += count;
+            next_part += count;
         }
         words.extend(&active);
         words.extend(lists.iter().flatten());
-        let most_lenses = lists.iter().map(Vec::len).max().unwrap_or(0) as u32;
-        Self { words, active: active.len() as u32, layer_words, most_lenses }
+        Self { words, active: active.len() as u32, layer_words, most_layers, stride: layer }
     }
 }
 
@@ -90,14 +98,17 @@ mod tests {
 
     #[test]
     fn storage_grows_with_the_tiles_that_lenses_touch() {
-        let none = Tiles::from_lists(&[vec![], vec![]], 1);
+        let none = Tiles::from_lists(&[vec![], vec![]], &[], 1);
         assert_eq!((none.active, none.layer_words), (0, 0));
-        let two = Tiles::from_lists(&[vec![], vec![0, 5], vec![3]], 2);
+        let two = Tiles::from_lists(&[vec![], vec![0, 5], vec![3]], &[2; 6], 2);
         assert_eq!(two.active, 2);
         let (of_two, of_one) = (1 + 5 * 3, 1 + 3 * 3);
         assert_eq!(two.layer_words, 256 * (of_two + of_one));
         assert_eq!(two.words[4..8], [0, 16, 14, 2]);
         assert_eq!(two.words[8..12], [256 * 16, 10, 16, 1]);
         assert_eq!(two.words[12..], [1, 2, 0, 5, 3]);
+        assert_eq!(two.most_layers, 5);
+        let mesh = Tiles::from_lists(&[vec![0, 1]], &[2, 8], 1);
+        assert_eq!((mesh.layer_words, mesh.most_layers), (256 * (1 + 11 * 2), 11));
     }
 }

@@ -3,10 +3,10 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::halfspaces::NotSolid;
-use super::hull::hull_planes;
-use super::{Form, Plane, Polyhedron, Solid, Volume};
+use super::hull::hull_form;
+use super::{Form, LensMeshes, Plane, Polyhedron, Solid, Tree, Volume};
 use crate::scene::Aabb;
-use crate::spec::{Rotation, Shape};
+use crate::spec::{At, Rotation, Shape};
 use crate::view::{Projection, View};
 
 /// Where a lens stands: `world = attach * T * R * S * shape space`.
@@ -40,16 +40,53 @@ pub fn quaternion(rotation: Rotation) -> DQuat {
     }
 }
 
-/// The volume of a shape, or one sentence on why it has none.
-pub fn build_volume(shape: &Shape, placement: &Placement, view: &View) -> Result<Volume, String> {
+/// The volume of a shape, or one sentence on why it has none, with the place of the part that is meant.
+///
+/// `meshes` holds what the scene has opened for `mesh` shapes.
+pub fn build_volume(
+    shape: &At<Shape>,
+    placement: &Placement,
+    view: &View,
+    meshes: &LensMeshes,
+) -> Result<Volume, At<String>> {
     let world = placement.world_from_shape();
     if !(world.matrix3.determinant().abs() > 1e-30 && world.is_finite()) {
-        return Err("its scale, rotation and the node it is attached to leave no volume".into());
+        let reason = "its scale, rotation and the node it is attached to leave no volume".to_owned();
+        return Err(At::new(reason, shape.span.clone()));
     }
-    Ok(part(shape, world, view)?.into())
+    let mut parts = Vec::new();
+    for shape in shape.parts() {
+        parts.push(part(&shape.value, world, view, meshes).map_err(|reason| At::new(reason, shape.span.clone()))?);
+    }
+    let tree = tree(&shape.value, &mut 0);
+    Ok(Volume { center: center(&tree, &parts), parts, tree })
 }
 
-fn part(shape: &Shape, world: DAffine3, view: &View) -> Result<Solid, String> {
+/// The mean of the centres of what is put together; of a part its own.
+fn center(tree: &Tree, parts: &[Solid]) -> DVec3 {
+    match tree {
+        Tree::Part(part) => parts[*part].center,
+        Tree::Union(list) | Tree::Intersection(list) | Tree::Difference(list) => {
+            list.iter().map(|tree| center(tree, parts)).sum::<DVec3>() / list.len() as f64
+        }
+    }
+}
+
+/// The tree of a shape whose parts are numbered in the order of the file, from `next` on.
+fn tree(shape: &Shape, next: &mut usize) -> Tree {
+    let mut trees = |list: &[At<Shape>]| list.iter().map(|shape| tree(&shape.value, next)).collect();
+    match shape {
+        Shape::Union(list) => Tree::Union(trees(list)),
+        Shape::Intersection(list) => Tree::Intersection(trees(list)),
+        Shape::Difference(list) => Tree::Difference(trees(list)),
+        _ => {
+            *next += 1;
+            Tree::Part(*next - 1)
+        }
+    }
+}
+
+fn part(shape: &Shape, world: DAffine3, view: &View, meshes: &LensMeshes) -> Result<Solid, String> {
     let v = DVec3::from_array;
     match shape {
         Shape::Sphere { center, radius } => Ok(ball(world, v(*center), DQuat::IDENTITY, DVec3::splat(*radius))),
@@ -63,12 +100,18 @@ fn part(shape: &Shape, world: DAffine3, view: &View) -> Result<Solid, String> {
         Shape::Capsule { from, to, radius } => Ok(capsule(world, v(*from), v(*to), *radius)),
         Shape::Polytope { planes } => polytope(world, planes),
         Shape::Hull { points } => {
-            let planes = hull_planes(points)
+            let points: Vec<DVec3> = points.iter().map(|p| v(*p)).collect();
+            let (form, pose) = hull_form(&points)
                 .map_err(|_| "its points lie in one plane or on one line, so their hull has no volume".to_string())?;
-            let corners = points.iter().map(|p| v(*p)).collect();
-            Ok(solid(Form::HalfSpaces { planes, hidden: 0 }, world, corners))
+            let into_form = pose.inverse();
+            Ok(solid(form, world * pose, points.iter().map(|p| into_form.transform_point3(*p)).collect()))
         }
         Shape::Flat { corners, depth } => flat(world, corners, *depth, view),
+        Shape::Mesh(mesh) => {
+            let mesh = meshes.get(mesh).ok_or("the scene was opened without its mesh")?;
+            Ok(solid(mesh.form.clone(), world * mesh.pose, mesh.corners.to_vec()))
+        }
+        Shape::Union(_) | Shape::Intersection(_) | Shape::Difference(_) => Err("it is made of parts".into()),
     }
 }
 

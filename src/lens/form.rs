@@ -1,24 +1,35 @@
-//! Closed forms: where a line enters and leaves a convex solid in its own space.
+//! Closed forms: where a line enters and leaves a solid in its own space.
 //!
 //! Every solid is first brought to a canonical pose by an affine map, which keeps the parameter along the
 //! line. Working precision is f64: the boundaries found here are what both backends are judged by.
 
-use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
-use super::Plane;
+use glam::DVec3;
 
-/// A convex solid in canonical pose.
+use super::{MeshSolid, Plane};
+
+/// A solid in canonical pose; convex, but for a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form {
     /// Radius 1 about the origin.
     Sphere,
     /// Between the planes z = 0 and z = 1, with radius `r0` at the first and `r1` at the second.
-    Cone { r0: f64, r1: f64 },
+    Cone {
+        r0: f64,
+        r1: f64,
+    },
     /// All within 1 of the segment from the origin to (0, 0, `length`).
-    Capsule { length: f64 },
+    Capsule {
+        length: f64,
+    },
     /// All points with `normal·p <= offset` for every plane. The first `hidden` planes are the sides of a
     /// flat lens: they pass through the eye and are never seen.
-    HalfSpaces { planes: Vec<Plane>, hidden: usize },
+    HalfSpaces {
+        planes: Vec<Plane>,
+        hidden: usize,
+    },
+    Mesh(Arc<MeshSolid>),
     /// A flat lens seen edge on.
     Empty,
 }
@@ -28,7 +39,7 @@ pub enum Form {
 pub struct Crossing {
     /// Parameter along the line.
     pub t: f64,
-    /// Which face: an index of `HalfSpaces`; for a cone 0 and 1 are its caps and 2 its side; else 0.
+    /// Which face: an index of `HalfSpaces`; a triangle of a mesh; for a cone 0 and 1 are its caps and 2 its side; else 0.
     pub face: u32,
 }
 
@@ -49,14 +60,27 @@ impl Span {
 const CONE_SIDE: u32 = 2;
 
 impl Form {
-    /// The part of the line `origin + t * direction` inside the solid; `None` when it misses or only grazes.
+    pub fn is_convex(&self) -> bool {
+        !matches!(self, Form::Mesh(_))
+    }
+
+    /// Appends the parts of the line `origin + t * direction` inside the solid, nearest first; none where it misses or
+    /// only grazes.
+    pub fn spans(&self, origin: DVec3, direction: DVec3, out: &mut Vec<Span>) {
+        match self {
+            Form::Mesh(mesh) => mesh.spans(origin, direction, out),
+            _ => out.extend(self.span(origin, direction)),
+        }
+    }
+
+    /// The only span that a convex solid can have.
     pub fn span(&self, origin: DVec3, direction: DVec3) -> Option<Span> {
         let span = match self {
             Form::Sphere => sphere_span(origin, direction),
             Form::Cone { r0, r1 } => cone_span(origin, direction, *r0, *r1),
             Form::Capsule { length } => capsule_span(origin, direction, *length),
             Form::HalfSpaces { planes, .. } => halfspace_span(origin, direction, planes),
-            Form::Empty => None,
+            Form::Mesh(_) | Form::Empty => None,
         }?;
         (span.exit.t > span.entry.t).then_some(span)
     }
@@ -70,35 +94,13 @@ impl Form {
             }
             Form::Capsule { length } => (p - nearest_on_axis(p, *length)).length_squared() <= 1.0,
             Form::HalfSpaces { planes, .. } => planes.iter().all(|plane| plane.distance(p) <= 0.0),
+            Form::Mesh(mesh) => mesh.contains(p),
             Form::Empty => false,
         }
     }
 
-    /// Distance from a point to the nearest boundary in the space that `normals` takes normals to, positive inside:
-    /// for each smooth piece of the boundary its implicit function over its gradient. That is the distance itself
-    /// where the map is a similarity, or the solid has flat faces only.
-    pub fn depth_inside(&self, p: DVec3, normals: &DMat3) -> f64 {
-        let piece = |height: f64, outward: DVec3| height / (*normals * outward).length().max(f64::MIN_POSITIVE);
-        match self {
-            Form::Sphere => piece(1.0 - p.length(), p.normalize_or(DVec3::X)),
-            Form::Cone { r0, r1 } => {
-                let slope = r1 - r0;
-                let out = p.truncate().normalize_or(glam::DVec2::X);
-                let side = piece(r0 + slope * p.z - p.truncate().length(), out.extend(-slope));
-                side.min(piece(p.z, DVec3::NEG_Z)).min(piece(1.0 - p.z, DVec3::Z))
-            }
-            Form::Capsule { length } => {
-                let out = p - nearest_on_axis(p, *length);
-                piece(1.0 - out.length(), out.normalize_or(DVec3::X))
-            }
-            Form::HalfSpaces { planes, .. } => {
-                planes.iter().map(|plane| piece(-plane.distance(p), plane.normal)).fold(f64::INFINITY, f64::min)
-            }
-            Form::Empty => f64::NEG_INFINITY,
-        }
-    }
-
-    /// Outward normal, of any length, at a point of the given face.
+    /// Normal, of any length, at a point of the given face; outward, but for a mesh, whose triangles may be turned
+    /// either way.
     pub fn normal(&self, face: u32, p: DVec3) -> DVec3 {
         match self {
             Form::Sphere => p,
@@ -110,6 +112,7 @@ impl Form {
             }
             Form::Capsule { length } => p - nearest_on_axis(p, *length),
             Form::HalfSpaces { planes, .. } => planes[face as usize].normal,
+            Form::Mesh(mesh) => mesh.normal(face),
             Form::Empty => DVec3::ZERO,
         }
     }
@@ -119,7 +122,7 @@ impl Form {
         match self {
             Form::Sphere | Form::Capsule { .. } => true,
             Form::Cone { .. } => a == CONE_SIDE && b == CONE_SIDE,
-            Form::HalfSpaces { .. } | Form::Empty => false,
+            Form::HalfSpaces { .. } | Form::Mesh(_) | Form::Empty => false,
         }
     }
 
@@ -129,7 +132,7 @@ impl Form {
     }
 }
 
-fn nearest_on_axis(p: DVec3, length: f64) -> DVec3 {
+pub(super) fn nearest_on_axis(p: DVec3, length: f64) -> DVec3 {
     DVec3::new(0.0, 0.0, p.z.clamp(0.0, length))
 }
 

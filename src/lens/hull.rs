@@ -1,66 +1,130 @@
-//! Half-spaces of the convex hull of points.
+//! The convex hull of points as a solid.
 
-use glam::DVec3;
+use std::sync::Arc;
+
+use glam::{DAffine3, DQuat, DVec3};
 use parry3d_f64::math::Vector;
 
-use super::Plane;
+use super::{Form, MeshSolid, Plane};
+use crate::scene::Aabb;
+
+/// Up to so many planes a ray asks every one; from there on a hull is a mesh with a hierarchy.
+const FEW_PLANES: usize = 64;
 
 /// Why points span no solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FlatPoints;
 
-/// One plane for each face of the hull; coplanar triangles share one.
-pub fn hull_planes(points: &[[f64; 3]]) -> Result<Vec<Plane>, FlatPoints> {
-    let input: Vec<Vector> = points.iter().map(|p| Vector::new(p[0], p[1], p[2])).collect();
-    let bounds = crate::scene::Aabb::from_points(points.iter().map(|p| DVec3::from_array(*p)));
-    let scale = bounds.size().max_element();
-    let (vertices, triangles) = parry3d_f64::transformation::try_convex_hull(&input).map_err(|_| FlatPoints)?;
-    let vertices: Vec<DVec3> = vertices.iter().map(|p| DVec3::new(p.x, p.y, p.z)).collect();
-    let middle = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
-    let mut planes: Vec<Plane> = Vec::new();
-    for [a, b, c] in triangles.into_iter().map(|t| t.map(|i| vertices[i as usize])) {
-        let normal = (b - a).cross(c - a);
-        if normal.length() <= 1e-14 * scale * scale {
-            continue;
+/// A convex hull as triangles over some of the points.
+#[derive(Debug, Clone)]
+pub struct Hull {
+    vertices: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    /// The longest side of its bounds.
+    size: f64,
+}
+
+impl Hull {
+    pub fn of(points: &[DVec3]) -> Result<Self, FlatPoints> {
+        let input: Vec<Vector> = points.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
+        let (vertices, triangles) = parry3d_f64::transformation::try_convex_hull(&input).map_err(|_| FlatPoints)?;
+        let vertices: Vec<DVec3> = vertices.iter().map(|p| DVec3::new(p.x, p.y, p.z)).collect();
+        let size = Aabb::from_points(vertices.iter().copied()).size().max_element();
+        let hull = Self { vertices, triangles, size };
+        if hull.thickness() <= 1e-7 * size { Err(FlatPoints) } else { Ok(hull) }
+    }
+
+    fn normal(&self, triangle: &[u32; 3]) -> DVec3 {
+        let [a, b, c] = triangle.map(|i| self.vertices[i as usize]);
+        (b - a).cross(c - a)
+    }
+
+    /// The extent across the largest triangle: what is flat is flat along it.
+    fn thickness(&self) -> f64 {
+        let normals = self.triangles.iter().map(|t| self.normal(t));
+        let Some(normal) = normals.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else { return 0.0 };
+        let heights = self.vertices.iter().map(|v| normal.normalize_or_zero().dot(*v));
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        high - low
+    }
+
+    /// One plane for each face, coplanar triangles sharing one; `None` for more than `most`.
+    pub fn planes(&self, most: usize) -> Option<Vec<Plane>> {
+        let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len() as f64;
+        let mut planes: Vec<Plane> = Vec::new();
+        for triangle in &self.triangles {
+            let (normal, a) = (self.normal(triangle), self.vertices[triangle[0] as usize]);
+            if normal.length() <= 1e-14 * self.size * self.size {
+                continue;
+            }
+            let plane = Plane::through(if normal.dot(a - middle) < 0.0 { -normal } else { normal }, a);
+            let known = |p: &Plane| {
+                p.normal.dot(plane.normal) > 1.0 - 1e-12 && (p.offset - plane.offset).abs() <= 1e-9 * self.size
+            };
+            if !planes.iter().any(known) {
+                planes.push(plane);
+            }
+            if planes.len() > most {
+                return None;
+            }
         }
-        let outward = if normal.dot(a - middle) < 0.0 { -normal } else { normal };
-        let plane = Plane::through(outward, a);
-        let known =
-            |p: &Plane| p.normal.dot(plane.normal) > 1.0 - 1e-12 && (p.offset - plane.offset).abs() <= 1e-9 * scale;
-        if !planes.iter().any(known) {
-            planes.push(plane);
+        Some(planes)
+    }
+}
+
+/// The hull of points as a form, and the space of the points from the form's.
+pub fn hull_form(points: &[DVec3]) -> Result<(Form, DAffine3), FlatPoints> {
+    let hull = Hull::of(points)?;
+    if let Some(mut planes) = hull.planes(FEW_PLANES) {
+        // The library may nudge points; the planes move out so that every given point is inside.
+        for plane in &mut planes {
+            plane.offset = points.iter().map(|p| plane.normal.dot(*p)).fold(plane.offset, f64::max);
         }
+        return Ok((Form::HalfSpaces { planes, hidden: 0 }, DAffine3::IDENTITY));
     }
-    let extent = planes
-        .iter()
-        .map(|plane| -vertices.iter().map(|v| plane.distance(*v)).fold(0.0, f64::min))
-        .fold(f64::INFINITY, f64::min);
-    if planes.len() < 4 || extent <= 1e-7 * scale {
-        return Err(FlatPoints);
-    }
-    // The library may nudge points; the planes move out so that every given point is inside.
-    for plane in &mut planes {
-        plane.offset = points.iter().map(|p| plane.normal.dot(DVec3::from_array(*p))).fold(plane.offset, f64::max);
-    }
-    Ok(planes)
+    let bounds = Aabb::from_points(hull.vertices.iter().copied());
+    let half = DVec3::splat(0.5 * hull.size);
+    let vertices = hull.vertices.iter().map(|p| (*p - bounds.center()) / half).collect();
+    let pose = DAffine3::from_scale_rotation_translation(half, DQuat::IDENTITY, bounds.center());
+    Ok((Form::Mesh(Arc::new(MeshSolid::new(vertices, &hull.triangles))), pose))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn planes(form: &Form) -> usize {
+        if let Form::HalfSpaces { planes, .. } = form { planes.len() } else { 0 }
+    }
+
     #[test]
     fn the_hull_of_a_cube_and_inner_points_has_six_planes() {
-        let mut points: Vec<[f64; 3]> =
-            (0..8).map(|i| [f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)]).collect();
-        points.extend([[0.5, 0.5, 0.5], [0.2, 0.3, 0.9]]);
-        assert_eq!(hull_planes(&points).unwrap().len(), 6);
+        let mut points: Vec<DVec3> =
+            (0..8).map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
+        points.extend([DVec3::splat(0.5), DVec3::new(0.2, 0.3, 0.9)]);
+        assert_eq!(planes(&hull_form(&points).unwrap().0), 6);
     }
 
     #[test]
     fn points_in_a_plane_span_nothing() {
-        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.3, 0.4, 0.0]];
-        assert_eq!(hull_planes(&points), Err(FlatPoints));
-        assert_eq!(hull_planes(&[[1.0; 3]; 5]), Err(FlatPoints));
+        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.3, 0.4]].map(|[x, y]| DVec3::new(x, y, 0.0));
+        assert_eq!(hull_form(&points).map(drop), Err(FlatPoints));
+        assert_eq!(hull_form(&[DVec3::ONE; 5]).map(drop), Err(FlatPoints));
+    }
+
+    #[test]
+    fn a_hull_with_many_faces_is_a_mesh() {
+        let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let points: Vec<DVec3> = (0..500)
+            .map(|i| {
+                let (turn, z) = (golden * f64::from(i), 1.0 - (2.0 * f64::from(i) + 1.0) / 500.0);
+                let r = (1.0 - z * z).sqrt();
+                DVec3::new(7.0 + 2.0 * r * turn.cos(), 2.0 * r * turn.sin(), 2.0 * z)
+            })
+            .collect();
+        let (form, pose) = hull_form(&points).unwrap();
+        assert!(!form.is_convex(), "too many planes to ask each");
+        let inside = |p: DVec3| form.contains(pose.inverse().transform_point3(p));
+        assert!(inside(DVec3::new(7.0, 1.9, 0.0)) && !inside(DVec3::new(7.0, 2.01, 0.0)) && !inside(DVec3::ZERO));
     }
 }

@@ -64,9 +64,11 @@ impl RayLayers {
         }
     }
 
-    /// The lenses around a depth: membership is half-open, `entry <= depth < exit`.
+    /// The lenses around a depth: membership is half-open, `entry <= depth < exit`. A boundary that is as close as two
+    /// that merge is reached: whether a surface in a lens face is inside must not depend on rounding.
     pub fn set_at(&self, depth: f64) -> LensSet {
-        self.starts.iter().rev().find(|start| start.depth <= depth).map_or(LensSet::EMPTY, |start| start.set)
+        let reached = |start: &&LayerStart| !starts_boundary(depth, start.depth);
+        self.starts.iter().rev().find(reached).map_or(LensSet::EMPTY, |start| start.set)
     }
 
     /// One more than the distinct boundaries between near and far.

@@ -25,10 +25,20 @@ impl Solid {
         Self { form, world_from_local, local_from_world: world_from_local.inverse(), hull, center, is_flat }
     }
 
-    /// Where the whole line of a ray is inside, before any clipping.
+    /// Origin and direction of a ray in the solid's own space.
+    fn local(&self, ray: &Ray) -> (DVec3, DVec3) {
+        (self.local_from_world.transform_point3(ray.origin), self.local_from_world.transform_vector3(ray.direction))
+    }
+
+    /// Appends where the whole line of a ray is inside, nearest first, before any clipping.
+    pub fn spans(&self, ray: &Ray, out: &mut Vec<Span>) {
+        let (origin, direction) = self.local(ray);
+        self.form.spans(origin, direction, out);
+    }
+
+    /// The only span of a convex solid.
     pub fn span(&self, ray: &Ray) -> Option<Span> {
-        let origin = self.local_from_world.transform_point3(ray.origin);
-        let direction = self.local_from_world.transform_vector3(ray.direction);
+        let (origin, direction) = self.local(ray);
         self.form.span(origin, direction)
     }
 
@@ -36,15 +46,15 @@ impl Solid {
         self.form.contains(self.local_from_world.transform_point3(p))
     }
 
-    /// Outward unit normal in the world where a ray crosses the surface.
+    /// Distance in world units to the boundary, positive inside; see [`Form::depth_inside`].
+    pub fn depth_inside(&self, p: DVec3) -> f64 {
+        self.form.depth_inside(self.local_from_world.transform_point3(p), &self.local_from_world.matrix3)
+    }
+
+    /// Unit normal in the world where a ray crosses the surface; outward, but for a mesh.
     pub fn normal(&self, ray: &Ray, crossing: &Crossing) -> DVec3 {
         let local = self.form.normal(crossing.face, self.local_from_world.transform_point3(ray.at(crossing.t)));
         (self.local_from_world.matrix3.transpose() * local).normalize_or_zero()
-    }
-
-    /// Distance in world units from a point to the boundary, positive inside; see [`Form::depth_inside`].
-    pub fn depth_inside(&self, p: DVec3) -> f64 {
-        self.form.depth_inside(self.local_from_world.transform_point3(p), &self.local_from_world.matrix3.transpose())
     }
 
     /// World bounds; unlimited for a flat lens.

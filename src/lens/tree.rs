@@ -1,5 +1,8 @@
 //! How the parts of a volume are put together.
 
+/// The most parts that the enabled lenses of one spec may have together.
+pub const MAX_PARTS: usize = 1024;
+
 /// Union, intersection and difference over parts; every list has at least one entry.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tree {

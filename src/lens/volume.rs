@@ -33,17 +33,19 @@ pub struct Boundary {
     pub span: Span,
     /// Whether the ray enters the part here, rather than leaves it.
     pub enters_part: bool,
+    /// Whether it enters the volume.
+    pub enters: bool,
 }
 
 impl Boundary {
+    /// The ends of a span that lie strictly between two planes, as boundaries of its part alone.
+    fn ends(part: usize, span: Span, near: f64, far: f64) -> impl Iterator<Item = Boundary> {
+        let at = move |depth: f64, enters: bool| Boundary { depth, part, span, enters_part: enters, enters };
+        [at(span.entry.t, true), at(span.exit.t, false)].into_iter().filter(move |b| b.depth > near && b.depth < far)
+    }
+
     pub fn crossing(&self) -> &Crossing {
         if self.enters_part { &self.span.entry } else { &self.span.exit }
-    }
-}
-
-impl From<Solid> for Volume {
-    fn from(solid: Solid) -> Self {
-        Self { center: solid.center, parts: vec![solid], tree: Tree::Part(0) }
     }
 }
 
@@ -53,11 +55,18 @@ impl Volume {
         matches!(self.tree, Tree::Part(part) if self.parts[part].is_flat)
     }
 
+    /// The only part, if it is convex: a ray has at most one interval, and nothing needs to be put together.
+    pub fn lone(&self) -> Option<(usize, &Solid)> {
+        match self.tree {
+            Tree::Part(part) if self.parts[part].form.is_convex() => Some((part, &self.parts[part])),
+            _ => None,
+        }
+    }
+
     /// Appends the intervals of SEMANTICS section 2, nearest first: cut by near and far, none where the ray only grazes.
     pub fn intervals(&self, ray: &Ray, near: f64, far: f64, out: &mut Vec<Interval>) {
-        if let Tree::Part(part) = self.tree {
-            // The common case needs no search.
-            let span = self.parts[part].span(ray).and_then(|span| span.between(near, far));
+        if let Some((_, solid)) = self.lone() {
+            let span = solid.span(ray).and_then(|span| span.between(near, far));
             out.extend(span.map(|span| Interval { entry: span.entry.t.max(near), exit: span.exit.t.min(far) }));
             return;
         }
@@ -74,51 +83,68 @@ impl Volume {
 
     /// Appends where a ray enters and leaves the volume strictly between near and far, nearest first; returns whether
     /// it is inside at the near plane.
-    ///
-    /// Part boundaries that are close together are one, at which all of those parts change.
     pub fn boundaries(&self, ray: &Ray, near: f64, far: f64, out: &mut Vec<Boundary>) -> bool {
+        if let Some((part, solid)) = self.lone() {
+            let Some(span) = solid.span(ray).and_then(|span| span.between(near, far)) else { return false };
+            out.extend(Boundary::ends(part, span, near, far));
+            return span.entry.t <= near;
+        }
         let mut inside = vec![false; self.parts.len()];
         let mut crossings: Vec<Boundary> = Vec::new();
+        let mut spans = Vec::new();
         for (part, solid) in self.parts.iter().enumerate() {
-            let Some(span) = solid.span(ray).and_then(|span| span.between(near, far)) else { continue };
-            let at = |depth: f64, enters_part: bool| Boundary { depth, part, span, enters_part };
-            inside[part] |= span.entry.t <= near;
-            let ends = [at(span.entry.t, true), at(span.exit.t, false)];
-            crossings.extend(ends.into_iter().filter(|c| c.depth > near && c.depth < far));
+            spans.clear();
+            solid.spans(ray, &mut spans);
+            for span in spans.iter().filter_map(|span| span.between(near, far)) {
+                inside[part] |= span.entry.t <= near;
+                crossings.extend(Boundary::ends(part, span, near, far));
+            }
         }
         crossings.sort_by(|a, b| a.depth.total_cmp(&b.depth));
         let starts_inside = self.tree.holds(&|part| inside[part]);
-        let mut held = starts_inside;
-        let mut rest = crossings.as_slice();
+        self.changes(&crossings, &mut inside, out);
+        starts_inside
+    }
+
+    /// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several
+    /// parts change; it is one of the volume where the whole then holds and did not, or the other way round.
+    fn changes(&self, crossings: &[Boundary], inside: &mut [bool], out: &mut Vec<Boundary>) {
+        let mut held = self.tree.holds(&|part| inside[part]);
+        let mut rest = crossings;
         while let Some(first) = rest.first() {
             let merged = rest.iter().take_while(|c| !starts_boundary(first.depth, c.depth)).count();
-            let mut changed = None;
             let mut holds = held;
+            let mut changed = None;
             for crossing in &rest[..merged] {
                 inside[crossing.part] = crossing.enters_part;
                 holds = self.tree.holds(&|part| inside[part]);
                 if holds != held {
-                    changed = changed.or(Some(*crossing));
+                    changed = changed.or(Some(crossing));
                 }
             }
-            if holds != held {
-                out.extend(changed.map(|crossing| Boundary { depth: first.depth, ..crossing }));
-                held = holds;
+            if let Some(crossing) = changed.filter(|_| holds != held) {
+                out.push(Boundary { depth: first.depth, enters: holds, ..*crossing });
             }
+            held = holds;
             rest = &rest[merged..];
         }
-        starts_inside
+    }
+
+    /// Outward unit normal in the world at a boundary of a ray: turned round where the part is taken away.
+    pub fn normal(&self, ray: &Ray, boundary: &Boundary) -> DVec3 {
+        let normal = self.parts[boundary.part].normal(ray, boundary.crossing());
+        if (normal.dot(ray.direction) < 0.0) == boundary.enters { normal } else { -normal }
+    }
+
+    /// Distance in world units from a point to the boundary, positive inside; of a compound to the boundaries of its
+    /// parts, which is no more than to its own.
+    pub fn depth_inside(&self, p: DVec3) -> f64 {
+        let algebra: Algebra<f64> = Algebra { union: f64::max, intersection: f64::min, difference: |a, b| a.min(-b) };
+        self.tree.fold(&algebra, &|part| self.parts[part].depth_inside(p)).unwrap_or(f64::NEG_INFINITY)
     }
 
     pub fn contains(&self, p: DVec3) -> bool {
         self.tree.holds(&|part| self.parts[part].contains(p))
-    }
-
-    /// Distance in world units from a point to the nearest boundary, positive inside; of first order where a part is
-    /// scaled unevenly, and a lower bound where parts of a union overlap.
-    pub fn depth_inside(&self, p: DVec3) -> f64 {
-        let algebra = Algebra { union: f64::max, intersection: f64::min, difference: |a, b: f64| a.min(-b) };
-        self.tree.fold(&algebra, &|part| self.parts[part].depth_inside(p)).unwrap_or(f64::NEG_INFINITY)
     }
 
     /// World bounds; unlimited where a flat lens makes them so.

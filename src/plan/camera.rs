@@ -6,7 +6,7 @@ use super::instances;
 use super::lenses::Placed;
 use crate::InputError;
 use crate::scene::{Aabb, Camera, Scene};
-use crate::spec::{CameraPlace, ProjectionSpec, Spec};
+use crate::spec::{By, CameraPlace, ProjectionSpec, Spec};
 use crate::view::{Projection, View};
 
 /// Where the default camera looks from, seen from the centre of the bounds.
@@ -151,12 +151,16 @@ fn fitted(view: &View, spec: &Spec, scene: &Scene, volumes: &[Option<Placed>], o
     let hulls = volumes.iter().flatten().flat_map(|placed| placed.volume.hull());
     let models = scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty()).flat_map(|b| b.corners());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    // Whatever lenses move is seen inside them only, but a flat lens reaches as far as there is something to see.
+    // Whatever lenses move is seen inside them only, but a flat lens reaches as far as there is something to see, and what
+    // moves whole objects shows them wherever that is.
     let mut points: Vec<DVec3> = models.chain(hulls).collect();
     let mut seen = Aabb::from_points(points.iter().copied());
     for index in order {
-        let Some(placed) = volumes[*index].as_ref().filter(|placed| placed.volume.is_flat()) else { continue };
-        for filter in &spec.lenses[*index].filters {
+        let (Some(placed), lens) = (&volumes[*index], &spec.lenses[*index]) else { continue };
+        if lens.by == By::Pixel && placed.volume.bounds().size().is_finite() {
+            continue;
+        }
+        for filter in &lens.filters {
             if let Some(reach) = instances::reach(&filter.value, placed, &seen) {
                 points.extend(reach.corners());
                 seen = seen.union(reach);

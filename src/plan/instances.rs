@@ -12,10 +12,12 @@ use super::lenses::Placed;
 use super::{Item, Lens, LensSet};
 use crate::InputError;
 use crate::scene::{Aabb, Scene};
-use crate::spec::{At, By, Displacement, Filter, Pattern};
+use crate::spec::{At, By, Filter, Pattern};
 
 /// The most ways in which one item may be shown.
 const MOST_WAYS: usize = 256;
+/// Of bounds, as a share of their largest coordinate; positions are f32 in a file.
+const ROUNDING: f64 = 1e-6;
 /// The most instances of a plan.
 const MOST_INSTANCES: usize = 1 << 20;
 
@@ -65,7 +67,7 @@ impl Instance {
     /// This, seen through one more mover above all others.
     fn through(&self, rank: usize, movement: &DAffine3, lens_bounds: &Aabb) -> Option<Self> {
         let shown = Aabb::from_points(self.bounds.corners().map(|p| movement.transform_point3(p)));
-        let bounds = shown.intersection(*lens_bounds);
+        let bounds = padded(shown).intersection(*lens_bounds);
         if bounds.is_empty() {
             return None;
         }
@@ -80,6 +82,12 @@ impl Instance {
             steps: std::iter::once(first).chain(rest).collect(),
         })
     }
+}
+
+/// Larger by more than rounding, so that a face on the bounds' side is not outside of them by another way of computing it.
+fn padded(bounds: Aabb) -> Aabb {
+    let pad = ROUNDING * bounds.min.abs().max(bounds.max.abs()).max_element();
+    Aabb { min: bounds.min - pad, max: bounds.max + pad }
 }
 
 /// Every item in place, in their order, then all that movers may show of them.
@@ -147,10 +155,10 @@ fn movement_of(filter: &Filter, lens: &Lens, item: &Item, subject: &Subject) -> 
             let center = center.map_or(lens.volume.center, |c| lens.world_from_shape.transform_point3(c.into()));
             magnified(*factor, center)
         }
-        Filter::Displace { nodes, by } if displaces(nodes, subject) => DAffine3::from_translation(match by {
-            Displacement::Offset(offset) => (*offset).into(),
-            Displacement::Explode(factor) => (item.center - lens.volume.center) * *factor,
-        }),
+        Filter::Displace { nodes, offset, explode } if displaces(nodes, subject) => {
+            let away = item.center - lens.volume.center;
+            DAffine3::from_translation(DVec3::from_array(*offset) + away * *explode)
+        }
         _ => DAffine3::IDENTITY,
     }
 }
@@ -169,12 +177,10 @@ pub(super) fn reach(filter: &Filter, placed: &Placed, seen: &Aabb) -> Option<Aab
             let center = center.map_or(centre, |c| placed.world_from_shape.transform_point3(c.into()));
             Some(box_of(magnified(*factor, center)))
         }
-        Filter::Displace { by: Displacement::Offset(offset), .. } => {
-            Some(box_of(DAffine3::from_translation((*offset).into())))
-        }
-        Filter::Displace { by: Displacement::Explode(factor), .. } => {
+        Filter::Displace { offset, explode, .. } => {
             // The centre of a node may be anywhere in the box.
-            let shift = Aabb::from_points(seen.corners().map(|p| (p - centre) * *factor));
+            let offset = DVec3::from_array(*offset);
+            let shift = Aabb::from_points(seen.corners().map(|p| offset + (p - centre) * *explode));
             Some(Aabb { min: seen.min + shift.min, max: seen.max + shift.max })
         }
         _ => None,

@@ -215,19 +215,10 @@ fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Re
         if !(0..model.nodes.len()).any(|n| model.node_matches(n, &pattern.value)) {
             let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
             return Err(InputError::at(&spec.source, pattern.span.clone(), message)
-                .help(nearest_node_name(model, &pattern.value.0)));
+                .help(model.nearest_node_name(&pattern.value.0)));
         }
     }
     Ok(())
-}
-
-/// What to write instead of a node name that is not there.
-pub(super) fn nearest_node_name(model: &Model, name: &str) -> String {
-    let names = model.nodes.iter().map(|n| n.name.as_str()).filter(|n| !n.is_empty());
-    match names.map(|n| (strsim::jaro_winkler(n, name), n)).max_by(|a, b| a.0.total_cmp(&b.0)) {
-        Some((score, nearest)) if score > 0.8 => format!("did you mean `{nearest}`?"),
-        _ => "`lenspeel info` lists the nodes of a model".into(),
-    }
 }
 
 fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {

@@ -91,9 +91,9 @@ pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Opt
 fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Placed, InputError> {
     let attach = attach_space(spec, lens, scene, view)?;
     let placement = Placement { attach, translation: lens.translation, rotation: lens.rotation, scale: lens.scale };
-    let volume = build_volume(&lens.shape.value, &placement, view).map_err(|reason| {
-        let message = format!("the shape of lens `{}` has no volume: {reason}", lens.name.value);
-        InputError::at(&spec.source, lens.shape.span.clone(), message)
+    let volume = build_volume(&lens.shape, &placement, view, &scene.lens_meshes).map_err(|reason| {
+        let message = format!("the shape of lens `{}` has no volume: {}", lens.name.value, reason.value);
+        InputError::at(&spec.source, reason.span, message)
     })?;
     if !volume.parts.iter().all(|part| part.world_from_local.is_finite() && part.local_from_world.is_finite()) {
         let message = format!("the numbers of lens `{}` are too large or too small to compute with", lens.name.value);
@@ -108,21 +108,10 @@ fn attach_space(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Res
         Attach::Scene => Ok(DAffine3::IDENTITY),
         Attach::Camera => Ok(view.world_from_camera()),
         Attach::Node(name) => {
-            let found: Vec<usize> = (0..model.nodes.len()).filter(|i| model.nodes[*i].name == *name).collect();
-            let error = |message: String, help: String| {
+            let node = model.node_named(name).map_err(|(message, help)| {
                 InputError::at(&spec.source, lens.attach.span.clone(), message).help(help)
-            };
-            match found[..] {
-                [node] => Ok(model.nodes[node].world_from_local),
-                [] => Err(error(
-                    format!("`{}` has no node named `{name}`", model.name),
-                    super::items::nearest_node_name(model, name),
-                )),
-                _ => Err(error(
-                    format!("{} nodes of `{}` are named `{name}`", found.len(), model.name),
-                    "a lens is attached to one node; give that node a name of its own".into(),
-                )),
-            }
+            })?;
+            Ok(model.nodes[node].world_from_local)
         }
     }
 }

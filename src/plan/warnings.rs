@@ -21,9 +21,13 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
             check(format!("`{key}` of lens `{name}`"), materials, &material);
         }
         for filter in &lens.filters {
-            if let Filter::Erase { nodes, materials } = &filter.value {
-                check(format!("`erase` of lens `{name}`"), nodes, &node);
-                check(format!("`erase` of lens `{name}`"), materials, &material);
+            match &filter.value {
+                Filter::Erase { nodes, materials } => {
+                    check(format!("`erase` of lens `{name}`"), nodes, &node);
+                    check(format!("`erase` of lens `{name}`"), materials, &material);
+                }
+                Filter::Displace { nodes, .. } => check(format!("`displace` of lens `{name}`"), nodes, &node),
+                _ => {}
             }
         }
     }

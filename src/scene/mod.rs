@@ -2,9 +2,11 @@
 //!
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
+mod lens_meshes;
 mod load;
 mod materials;
 mod model;
+mod names;
 mod open;
 mod textures;
 

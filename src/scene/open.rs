@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::{MaterialRecord, Model, TextureSet};
+use super::{MaterialRecord, Model, TextureSet, lens_meshes};
 use crate::InputError;
+use crate::lens::LensMeshes;
 use crate::spec::{Filter, Spec};
 
 /// The models of a spec with what they share: materials and textures in one table each.
@@ -21,6 +22,8 @@ pub struct Scene {
     pub textures: TextureSet,
     /// The texture of each file that a `texture` filter names.
     pub filter_textures: BTreeMap<PathBuf, u32>,
+    /// The solids of `mesh` shapes.
+    pub lens_meshes: LensMeshes,
 }
 
 impl Scene {
@@ -49,6 +52,12 @@ impl Scene {
                 scene.add_filter_texture(&file.value).map_err(|e| e.or_at(&spec.source, file.span.clone()))?;
             }
         }
+        let alternates = spec.scene.alternates.iter().map(|(_, path)| path.value.as_path());
+        let mut known: BTreeMap<&Path, &Model> = alternates.zip(&scene.models[1..]).collect();
+        if choice.is_none() {
+            known.insert(&file.value, &scene.models[0]);
+        }
+        scene.lens_meshes = lens_meshes::open(spec, &known)?;
         Ok(scene)
     }
 
@@ -61,7 +70,7 @@ impl Scene {
             material_base.push(materials.len());
             materials.extend(model.materials.iter().map(|m| MaterialRecord::new(m, model, &mut textures)));
         }
-        Self { models, alternates, materials, material_base, textures, filter_textures: BTreeMap::new() }
+        Self { models, alternates, materials, material_base, textures, ..Self::default() }
     }
 
     fn add_filter_texture(&mut self, path: &Path) -> Result<(), InputError> {

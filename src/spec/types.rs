@@ -253,6 +253,45 @@ pub enum Shape {
         corners: Vec<[f64; 3]>,
         depth: Option<f64>,
     },
+    Mesh(MeshShape),
+    /// Lists have at least one entry; a list of one is that shape.
+    Union(Vec<At<Shape>>),
+    Intersection(Vec<At<Shape>>),
+    /// The first less the others.
+    Difference(Vec<At<Shape>>),
+}
+
+impl At<Shape> {
+    /// The shapes that are no compounds, in the order of the file; of such a shape, itself.
+    pub fn parts(&self) -> Vec<&At<Shape>> {
+        match &self.value {
+            Shape::Union(list) | Shape::Intersection(list) | Shape::Difference(list) => {
+                list.iter().flat_map(|shape| shape.parts()).collect()
+            }
+            _ => vec![self],
+        }
+    }
+}
+
+/// A mesh of a glTF file as a volume.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshShape {
+    /// Resolved against the spec file's folder.
+    pub file: At<PathBuf>,
+    /// With its descendants; `None`: all that the file's default scene shows.
+    pub node: Option<At<String>>,
+    pub convex: Convex,
+}
+
+/// What is made of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Convex {
+    /// It must be convex as it stands.
+    AsItStands,
+    /// The convex hull of its vertices.
+    Hull,
+    /// Any closed mesh, with its hollows and holes.
+    Decompose,
 }
 
 /// How a lens surface is drawn.
@@ -293,10 +332,12 @@ pub enum Filter {
         factor: f64,
         center: Option<[f64; 3]>,
     },
-    /// Moves nodes that match; an empty list: everything.
+    /// Moves nodes that match (an empty list: everything) by `offset`, along the scene's axes, and by `explode` times
+    /// the vector from the lens's centre to the centre of the node's bounds.
     Displace {
         nodes: Vec<At<Pattern>>,
-        by: Displacement,
+        offset: [f64; 3],
+        explode: f64,
     },
     Opacity {
         value: f32,
@@ -336,15 +377,6 @@ impl Filter {
     pub fn moves(&self) -> bool {
         matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
     }
-}
-
-/// How far `displace` moves a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Displacement {
-    /// Along the scene's axes.
-    Offset([f64; 3]),
-    /// So many times the vector from the lens's centre to the centre of the node's bounds.
-    Explode(f64),
 }
 
 /// What `show` puts in place of the scene.

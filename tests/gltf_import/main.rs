@@ -3,6 +3,8 @@
 mod builder;
 mod damage;
 mod errors;
+#[path = "../support/gltf.rs"]
+mod gltf;
 mod shared;
 mod small;
 mod texts;

@@ -25,6 +25,9 @@ pub const ALL: &[(&str, Test)] = &[
     ("a_difference_is_found", a_difference_is_found),
     ("intervals_of_random_placements", crate::intervals::random_placements),
     ("an_interval_moved_is_found", crate::intervals::a_moved_lens_is_found),
+    ("layers_of_random_compounds", crate::compounds::layers_of_random_compounds),
+    ("pictures_of_compounds", crate::compounds::pictures_of_compounds),
+    ("crossings_that_overflow", crate::compounds::crossings_that_overflow),
     ("a_target_of_a_host", crate::host::a_target_of_a_host),
 ];
 
@@ -36,7 +39,7 @@ pub fn on_cpu(scene: &Scene, plan: &Plan) -> Frame {
 }
 
 /// Both engines against the CPU.
-fn check(device: &Headless, scene: &Scene, plan: &Plan) -> Result<(), String> {
+pub fn check(device: &Headless, scene: &Scene, plan: &Plan) -> Result<(), String> {
     let expected = on_cpu(scene, plan);
     for engine in ENGINES {
         let options = RenderOptions { engine, aovs: true };
@@ -116,11 +119,9 @@ fn lists_that_overflow(device: &Headless) -> Result<(), String> {
     for _ in 0..2 {
         let actual = device.render_with(&mut renderer, &scene, &plan, options, &mut None).map_err(|e| e.to_string())?;
         agree(&expected, &actual)?;
-        if renderer.reserved_fragments() < fragments as u64 {
-            return Err(format!(
-                "{} fragments in the lists, and the view has {fragments}",
-                renderer.reserved_fragments()
-            ));
+        let reserved = renderer.reserved().fragments;
+        if reserved < fragments as u64 {
+            return Err(format!("{reserved} fragments in the lists, and the view has {fragments}"));
         }
     }
     Ok(())

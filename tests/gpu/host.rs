@@ -32,7 +32,7 @@ pub fn a_target_of_a_host(device: &Headless) -> Result<(), String> {
     let pixels = download(device, queue, encoder, &target)?;
     let expected = on_cpu(&scene, &plan);
     let off = expected.pixels.iter().zip(&pixels).filter(|(a, b)| (0..4).any(|c| a[c].abs_diff(b[c]) > 2)).count();
-    if encoded.fragment_capacity == 0 || off > pixels.len() / 500 {
+    if encoded.room.fragments == 0 || off > pixels.len() / 500 {
         return Err(format!("{off} pixels of {} differ", pixels.len()));
     }
     Ok(())

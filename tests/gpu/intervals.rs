@@ -6,20 +6,21 @@ use std::f64::consts::TAU;
 use lenspeel::gpu::{Headless, Window};
 use lenspeel::lens::{LayerStart, RayLayers};
 use lenspeel::plan::Plan;
+use lenspeel::scene::Scene;
 
 use crate::scene::{ORTHOGRAPHIC, PERSPECTIVE, planned};
 
-const SIZE: [u32; 2] = [72, 54];
+pub const SIZE: [u32; 2] = [72, 54];
 /// Share of the rays that may differ: those that graze an edge or a silhouette.
 const GRAZING: f64 = 0.01;
 const PLACEMENTS: u32 = 6;
 
 /// A small generator (splitmix64), so that placements are the same everywhere.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     /// Evenly from `low` to `high`.
-    fn range(&mut self, low: f64, high: f64) -> f64 {
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -45,7 +46,8 @@ pub fn random_placements(device: &Headless) -> Result<(), String> {
     Ok(())
 }
 
-fn shapes(random: &mut Random) -> String {
+/// A lens of each convex shape.
+pub fn shapes(random: &mut Random) -> String {
     let turn = |random: &mut Random| {
         format!("[{:.1}, {:.1}, {:.1}]", random.range(0.0, 360.0), random.range(0.0, 360.0), random.range(0.0, 360.0))
     };
@@ -81,9 +83,14 @@ fn compare(device: &Headless, camera: &str, lenses: &str) -> Result<(), String> 
     if !matches!(&hull.volume.parts[0].form, lenspeel::lens::Form::HalfSpaces { planes, .. } if planes.len() > 20) {
         return Err("the hull should have many faces".into());
     }
-    let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
-    let found = device.layers(&mut renderer, &scene, &plan, Window::whole(&plan.view)).map_err(|e| e.to_string())?;
-    let bad: Vec<usize> = (0..found.len()).filter(|i| !same(&found[*i], &expected(&plan, *i))).collect();
+    compare_layers(device, &scene, &plan)
+}
+
+/// The layers of all pixels as the device and as the CPU find them.
+pub fn compare_layers(device: &Headless, scene: &Scene, plan: &Plan) -> Result<(), String> {
+    let mut renderer = device.renderer(scene).map_err(|e| e.to_string())?;
+    let found = device.layers(&mut renderer, scene, plan, Window::whole(&plan.view)).map_err(|e| e.to_string())?;
+    let bad: Vec<usize> = (0..found.len()).filter(|i| !same(&found[*i], &expected(plan, *i))).collect();
     let allowed = (GRAZING * found.len() as f64) as usize;
     match bad.first() {
         Some(first) if bad.len() > allowed => Err(format!(
@@ -91,7 +98,7 @@ fn compare(device: &Headless, camera: &str, lenses: &str) -> Result<(), String> 
             bad.len(),
             found.len(),
             found[*first],
-            expected(&plan, *first)
+            expected(plan, *first)
         )),
         _ => Ok(()),
     }

@@ -5,6 +5,7 @@
 
 mod agree;
 mod cases;
+mod compounds;
 mod host;
 mod intervals;
 mod scene;

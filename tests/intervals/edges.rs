@@ -1,13 +1,13 @@
 //! Rays that only touch a solid, and rays through its sharp places.
 
 use glam::{DAffine3, DVec3};
-use lenspeel::lens::{Interval, Placement, Volume, build_volume};
+use lenspeel::lens::{Interval, Placement, Volume};
 use lenspeel::spec::{Rotation, Shape};
 use lenspeel::view::{Ray, View};
 
 use crate::camera::camera;
 use crate::random::Random;
-use crate::solid::{KINDS, Solid, direction, only_interval, placement};
+use crate::solid::{KINDS, Solid, build, direction, only_interval, placement};
 
 const CASES: usize = 300;
 /// Where nothing is cut off.
@@ -60,7 +60,7 @@ fn plain(shape: &Shape) -> Volume {
     };
     let placed =
         Placement { attach: DAffine3::IDENTITY, translation: [0.0; 3], rotation: Rotation::default(), scale: [1.0; 3] };
-    build_volume(shape, &placed, &view).expect("a sound shape")
+    build(shape, &placed, &view).expect("a sound shape")
 }
 
 /// Lines through `sharp` and a point inside have an interval that ends there; rounding must not lose it.
@@ -140,7 +140,7 @@ fn a_polytope_without_thickness_is_refused_however_it_lies() {
             rotation: Rotation::default(),
             scale: [1.0; 3],
         };
-        build_volume(shape, &placed, &view)
+        build(shape, &placed, &view)
     };
     for _ in 0..CASES {
         assert!(built(&slab(&mut random, 1e-3)).is_ok());

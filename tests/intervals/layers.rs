@@ -1,13 +1,13 @@
 //! The layers that lenses cut a ray into.
 
 use glam::DVec3;
-use lenspeel::lens::{LensSet, RayLayers, Volume, build_volume};
+use lenspeel::lens::{LensSet, RayLayers, Volume};
 use lenspeel::spec::{Rotation, Shape};
 use lenspeel::view::{Ray, View};
 
 use crate::camera::camera;
 use crate::random::Random;
-use crate::solid::{KINDS, Solid, only_interval, placement};
+use crate::solid::{KINDS, Solid, build, only_interval, placement};
 
 const CASES: usize = 400;
 const LENSES: usize = 6;
@@ -110,7 +110,7 @@ fn row(random: &mut Random, view: &View, count: usize) -> Vec<Volume> {
     let between = |pair: &[f64]| {
         let center = [0.5 * (pair[0] + pair[1]), 0.1, -0.2];
         let shape = Shape::Box { center, size: [pair[1] - pair[0], 1.1, 0.9], rotation: Rotation::default() };
-        build_volume(&shape, &placed, view).expect("a box")
+        build(&shape, &placed, view).expect("a box")
     };
     borders.windows(2).map(between).collect()
 }
@@ -155,7 +155,7 @@ fn a_real_gap_stays_one() {
             rotation: Rotation::default(),
             scale: [1.0; 3],
         };
-        build_volume(&shape, &placed, &view).expect("a box")
+        build(&shape, &placed, &view).expect("a box")
     };
     let ray = Ray { origin: DVec3::ZERO, direction: DVec3::X };
     let counts = [0.0, 1e-7, 1e-4, 1e-3].map(|gap| {

@@ -1,8 +1,8 @@
 //! Random lens shapes, with what plain geometry says of them: support points and a mesh.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use lenspeel::lens::{Interval, Placement, Volume, build_volume};
-use lenspeel::spec::{Rotation, Shape};
+use lenspeel::lens::{Interval, LensMeshes, Placement, Volume, build_volume};
+use lenspeel::spec::{At, Rotation, Shape};
 use lenspeel::view::{Ray, View};
 
 use crate::facets::{Triangle, capsule_profile, corners_of_planes, frame, hull_facets, lathe};
@@ -49,6 +49,12 @@ pub struct Solid {
     corners: Vec<DVec3>,
 }
 
+/// The volume of a shape that names no mesh.
+pub fn build(shape: &Shape, placement: &Placement, view: &View) -> Result<Volume, String> {
+    let shape = At::new(shape.clone(), 0..0);
+    build_volume(&shape, placement, view, &LensMeshes::default()).map_err(|reason| reason.value)
+}
+
 /// The interval of a convex volume.
 pub fn only_interval(volume: &Volume, ray: &Ray, near: f64, far: f64) -> Option<Interval> {
     let mut found = Vec::new();
@@ -81,7 +87,7 @@ impl Solid {
     pub fn new(kind: &str, random: &mut Random, placement: &Placement, view: &View) -> Option<Self> {
         let shape = shape(kind, random);
         let map = placement.attach * own_map(placement);
-        let volume = build_volume(&shape, placement, view).unwrap_or_else(|e| panic!("{shape:?}: {e}"));
+        let volume = build(&shape, placement, view).unwrap_or_else(|e| panic!("{shape:?}: {e}"));
         let (body, triangles, map, corners, between) = match &shape {
             Shape::Flat { corners, depth } => {
                 let corners: Vec<DVec3> = corners.iter().map(|c| map.transform_point3(DVec3::from_array(*c))).collect();
@@ -200,7 +206,7 @@ fn geometry(shape: &Shape) -> (Body, Vec<Triangle>) {
         }
         Shape::Polytope { planes } => solid(corners_of_planes(planes)),
         Shape::Hull { points } => solid(points.iter().map(|p| v(*p)).collect()),
-        Shape::Flat { .. } => unreachable!("a flat lens depends on the eye"),
+        _ => unreachable!("a flat lens depends on the eye, and others are not drawn here"),
     }
 }
 

@@ -18,6 +18,7 @@ mod paint;
 mod planet;
 mod shapes;
 mod small;
+mod solids;
 mod terrain;
 mod village;
 
@@ -34,6 +35,7 @@ pub fn all() -> Vec<Generated> {
         Generated { name: "gearbox.glb", bytes: gearbox::gearbox() },
         Generated { name: "hand.glb", bytes: hand::skin() },
         Generated { name: "hand-bones.glb", bytes: bones::skeleton() },
+        Generated { name: "solids.glb", bytes: solids::solids() },
     ];
     files.extend(terrain::terrain());
     files.extend(small::all());

@@ -77,20 +77,24 @@ pub fn bevelled_box(size: DVec3, bevel: f64) -> Mesh {
 
 /// A plain box about `center`: 12 triangles, flat normals.
 pub fn cuboid(center: DVec3, size: DVec3) -> Mesh {
-    let half = size * 0.5;
     let mut mesh = Mesh::default();
     for axis in 0..3 {
         for side in [-1.0, 1.0] {
-            let [n, u, v] = [0, 1, 2].map(|k| DVec3::AXES[(axis + k) % 3]);
-            let (n, u) = (n * side, u * side);
-            let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-            let first = mesh.positions.len() as u32;
-            mesh.positions.extend(corners.map(|(a, b)| center + (n + u * a + v * b) * half));
-            mesh.normals.extend([n; 4]);
-            mesh.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|i| i + first)));
+            cuboid_face(&mut mesh, center, size, axis, side);
         }
     }
     mesh
+}
+
+/// Appends the face of a box on one side along an axis.
+pub fn cuboid_face(mesh: &mut Mesh, center: DVec3, size: DVec3, axis: usize, side: f64) {
+    let [n, u, v] = [0, 1, 2].map(|k| DVec3::AXES[(axis + k) % 3]);
+    let (n, u) = (n * side, u * side);
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(corners.map(|(a, b)| center + (n + u * a + v * b) * size * 0.5));
+    mesh.normals.extend([n; 4]);
+    mesh.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|i| i + first)));
 }
 
 /// A rectangle in the xy plane facing +z, `v` pointing down as in an image.

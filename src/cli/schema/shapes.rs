@@ -86,15 +86,19 @@ fn cuboid() -> Value {
 
 fn composed() -> Vec<(&'static str, Value)> {
     let mesh = json!({
-        "file": described(text(), "A closed glTF mesh.", NONE),
+        "file": described(text(), "A glTF file with a closed mesh.", NONE),
         "node": described(text(), "With its descendants; default: all.", NONE),
-        "convex": described(json!({ "enum": ["hull", "decompose"] }), "Default: convex as it stands.", NONE),
+        "convex": described(
+            json!({ "enum": ["hull", "decompose"] }),
+            "Its convex hull, or its own shape with hollows and holes; default: convex as it stands.",
+            NONE,
+        ),
     });
     let list = |help| json!({ "description": help, "type": "array", "items": reference("shape"), "minItems": 1 });
     vec![
-        ("mesh", described(table(&["file"], mesh), "A mesh (not built yet).", NONE)),
-        ("union", list("All of them together (not built yet).")),
-        ("intersection", list("What all of them share (not built yet).")),
-        ("difference", list("The first less the others (not built yet).")),
+        ("mesh", described(table(&["file"], mesh), "A closed mesh as a volume.", NONE)),
+        ("union", list("All of them together.")),
+        ("intersection", list("What all of them share.")),
+        ("difference", list("The first less the others.")),
     ]
 }

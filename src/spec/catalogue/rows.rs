@@ -89,11 +89,11 @@ const MAGNIFY: &[Param] = &[
 ];
 const DISPLACE: &[Param] = &[
     param("nodes", Patterns, EVERYTHING, "nodes that move"),
-    param("offset", Vector, Meaning("give this or explode"), "by this much along the scene's axes, scene units"),
+    param("offset", Vector, Meaning("none"), "by this much along the scene's axes, scene units"),
     param(
         "explode",
         Number(NumberRange::ANY),
-        Meaning("give this or offset"),
+        Meaning("0.5 without an offset, else 0"),
         "each by this times the way from the lens's centre to its own",
     ),
 ];

@@ -11,7 +11,7 @@ use super::table::{entries, only_entry};
 use super::{color, later};
 use crate::InputError;
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Color, Displacement, Filter, NumberRange, Pattern, ShowWhat, UvMapping};
+use crate::spec::{At, Color, Filter, NumberRange, Pattern, ShowWhat, UvMapping};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -256,7 +256,7 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
         }),
         "show" => Some(Filter::Show(show(params)?)),
         "magnify" => params.double("factor").map(|factor| Filter::Magnify { factor, center: params.vector("center") }),
-        "displace" => Some(displace(params)?),
+        "displace" => Some(displace(params)),
         "opacity" => params.number("value").map(|value| Filter::Opacity { value }),
         "tint" => {
             params.color("color").zip(params.number("amount")).map(|(color, amount)| Filter::Tint { color, amount })
@@ -292,21 +292,16 @@ fn show(params: &Params) -> Result<ShowWhat, InputError> {
     }
 }
 
-fn displace(params: &Params) -> Result<Filter, InputError> {
-    const REMEDY: &str = "write { displace = { offset = [0, 0, 1] } } or { displace = { explode = 0.5 } }";
-    let nodes = params.patterns("nodes").unwrap_or_default();
-    let by = match (params.vector("offset"), params.double("explode")) {
-        (Some(offset), None) => Displacement::Offset(offset),
-        (None, Some(factor)) => Displacement::Explode(factor),
-        (None, None) => {
-            return Err(params.error("filter `displace` needs `offset` or `explode`".to_owned()).help(REMEDY));
-        }
-        (Some(_), Some(_)) => {
-            let message = "filter `displace` takes `offset` or `explode`, not both".to_owned();
-            return Err(params.error(message).help(REMEDY));
-        }
-    };
-    Ok(Filter::Displace { nodes, by })
+/// What `displace` does when nothing else is said.
+const EXPLODE: f64 = 0.5;
+
+fn displace(params: &Params) -> Filter {
+    let offset = params.vector("offset");
+    Filter::Displace {
+        nodes: params.patterns("nodes").unwrap_or_default(),
+        offset: offset.unwrap_or_default(),
+        explode: params.double("explode").unwrap_or(if offset.is_some() { 0.0 } else { EXPLODE }),
+    }
 }
 
 fn material(params: &Params) -> Filter {

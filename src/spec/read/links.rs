@@ -4,13 +4,14 @@ use std::collections::HashMap;
 
 use super::suggest;
 use crate::InputError;
-use crate::lens::{MAX_LENSES, MAX_RULES};
+use crate::lens::{MAX_LENSES, MAX_PARTS, MAX_RULES};
 use crate::spec::{At, Condition, Filter, LensSpec, Pattern, ShowWhat, Source, Spec};
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
     let links = Links { source: &spec.source, spec };
     links.count()?;
     links.count_rules()?;
+    links.count_parts()?;
     links.unique_names()?;
     for lens in &spec.lenses {
         links.lens(lens)?;
@@ -39,6 +40,15 @@ impl Links<'_> {
         let Some(first_too_many) = self.spec.overlaps.get(MAX_RULES) else { return Ok(()) };
         let message = format!("there are {} overlap rules, and at most {MAX_RULES} can be", self.spec.overlaps.len());
         Err(self.error(&first_too_many.when, message).help("one rule can stand for many: join conditions with `|`"))
+    }
+
+    /// All parts of all enabled lenses.
+    fn count_parts(&self) -> Result<(), InputError> {
+        let parts = || self.spec.lenses.iter().filter(|lens| lens.enabled).flat_map(|lens| lens.shape.parts());
+        let Some(first_too_many) = parts().nth(MAX_PARTS) else { return Ok(()) };
+        let message =
+            format!("the shapes of the enabled lenses have {} parts, and at most {MAX_PARTS} can be", parts().count());
+        Err(self.error(first_too_many, message).help("a hull or a mesh is one part, however many faces it has"))
     }
 
     fn unique_names(&self) -> Result<(), InputError> {

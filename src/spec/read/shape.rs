@@ -3,14 +3,21 @@
 use super::item::Item;
 use super::number::{difference, length};
 use super::table::{Table, only_entry};
-use super::{keys, later, suggest};
+use super::{keys, suggest};
 use crate::InputError;
 use crate::spec::range::SMALLEST_SIZE;
-use crate::spec::{At, NumberRange, Rotation, Shape};
+use crate::spec::{At, Convex, MeshShape, NumberRange, Rotation, Shape};
 
 const WANTED: &str = "one shape, such as { sphere = { center = [0, 0, 0], radius = 1 } }";
 
+/// How many compounds a shape may be inside of.
+const DEEPEST: usize = 16;
+
 pub fn read(item: &Item) -> Result<At<Shape>, InputError> {
+    nested(item, 0)
+}
+
+fn nested(item: &Item, depth: usize) -> Result<At<Shape>, InputError> {
     let inner = only_entry(item, WANTED)?;
     let shape = match inner.name.as_str() {
         "sphere" => sphere(&open(&inner, keys::SPHERE)?),
@@ -22,8 +29,10 @@ pub fn read(item: &Item) -> Result<At<Shape>, InputError> {
         "polytope" => polytope(&open(&inner, keys::POLYTOPE)?),
         "hull" => hull(&open(&inner, keys::HULL)?),
         "flat" => flat(&open(&inner, keys::FLAT)?),
-        "mesh" => Err(mesh(&inner)),
-        "union" | "intersection" | "difference" => Err(compound(&inner)),
+        "mesh" => mesh(&open(&inner, keys::MESH)?),
+        "union" => list(&inner, depth).map(Shape::Union),
+        "intersection" => list(&inner, depth).map(Shape::Intersection),
+        "difference" => list(&inner, depth).map(Shape::Difference),
         other => {
             let names = keys::SHAPES.iter().map(|(name, _)| *name);
             Err(inner.error_at_key(format!("there is no shape `{other}`")).help(suggest::help(other, names)))
@@ -160,32 +169,24 @@ fn flat(table: &Table) -> Result<Shape, InputError> {
     })
 }
 
-/// Checks a mesh shape and refuses it.
-fn mesh(item: &Item) -> InputError {
-    let check = || -> Result<(), InputError> {
-        let table = open(item, keys::MESH)?;
-        table.need("file")?.path()?;
-        table.read("node", |item| item.text().map(drop))?;
-        table.read("convex", |item| item.choice(&[("hull", ()), ("decompose", ())]))?;
-        Ok(())
-    };
-    check().err().unwrap_or_else(|| not_built(item))
+fn mesh(table: &Table) -> Result<Shape, InputError> {
+    let convex = |item: &Item| item.choice(&[("hull", Convex::Hull), ("decompose", Convex::Decompose)]);
+    Ok(Shape::Mesh(MeshShape {
+        file: table.need("file")?.path()?,
+        node: table.read("node", |item| Ok(item.at(item.text()?.to_owned())))?,
+        convex: table.read("convex", convex)?.unwrap_or(Convex::AsItStands),
+    }))
 }
 
-/// Checks the parts of a compound shape and refuses it.
-fn compound(item: &Item) -> InputError {
-    let check = || -> Result<(), InputError> {
-        let parts = item.list("a list of shapes, such as [{ sphere = { ... } }, { box = { ... } }]")?;
-        if parts.is_empty() {
-            return Err(item.error(format!("shape `{}` has no parts", item.name)).help("list at least one shape"));
-        }
-        parts.iter().try_for_each(|part| read(part).map(drop))
-    };
-    check().err().unwrap_or_else(|| not_built(item))
-}
-
-fn not_built(item: &Item) -> InputError {
-    const WORKING: [&str; 9] =
-        ["sphere", "ellipsoid", "box", "cylinder", "cone", "capsule", "polytope", "hull", "flat"];
-    later::feature(item, &format!("shape `{}`", item.name), &format!("these work: {}", suggest::listed(WORKING)))
+/// The entries of a compound that is itself `depth` deep in others.
+fn list(item: &Item, depth: usize) -> Result<Vec<At<Shape>>, InputError> {
+    let parts = item.list("a list of shapes, such as [{ sphere = { ... } }, { box = { ... } }]")?;
+    if parts.is_empty() {
+        return Err(item.error(format!("shape `{}` has no parts", item.name)).help("list at least one shape"));
+    }
+    if depth == DEEPEST {
+        let message = format!("shapes are nested more than {DEEPEST} deep");
+        return Err(item.error_at_key(message).help("a union in a union may as well be one list"));
+    }
+    parts.iter().map(|part| nested(part, depth + 1)).collect()
 }

@@ -1,0 +1,232 @@
+// Where a ray enters and leaves a part of a lens: closed forms in the part's own space, in f32.
+
+struct Span {
+    entry: f32,
+    exit: f32,
+    entry_face: u32,
+    exit_face: u32,
+    // False: the ray misses or only grazes.
+    hit: bool,
+}
+
+struct LocalRay {
+    origin: vec3f,
+    direction: vec3f,
+}
+
+const CONE_SIDE: u32 = 2u;
+
+fn no_span() -> Span {
+    return Span(0.0, 0.0, 0u, 0u, false);
+}
+
+// In a solid's own space: the point for which the products below do not cancel, and its parameter.
+struct Anchored {
+    origin: vec3f,
+    shift: f32,
+}
+
+fn local_point(part: u32, p: vec3f) -> vec3f {
+    let q = vec4f(p, 1.0);
+    return vec3f(dot(parts[part].local_x, q), dot(parts[part].local_y, q), dot(parts[part].local_z, q));
+}
+
+fn local_vector(part: u32, v: vec3f) -> vec3f {
+    return vec3f(dot(parts[part].local_x.xyz, v), dot(parts[part].local_y.xyz, v), dot(parts[part].local_z.xyz, v));
+}
+
+fn local_ray(part: u32, ray: LensRay) -> LocalRay {
+    if MOVERS && ray.is_moved {
+        return LocalRay(local_point(part, ray.origin), local_vector(part, ray.direction));
+    }
+    let moving = parts[part].ray_base.xyz + parts[part].ray_dx.xyz * ray.at.x + parts[part].ray_dy.xyz * ray.at.y;
+    if frame.perspective != 0u {
+        return LocalRay(parts[part].ray_fixed.xyz, moving);
+    }
+    return LocalRay(moving, parts[part].ray_fixed.xyz);
+}
+
+// A gradient over the part's own space as one over the world.
+fn turned_normal(part: u32, n: vec3f) -> vec3f {
+    return parts[part].normal_x.xyz * n.x + parts[part].normal_y.xyz * n.y + parts[part].normal_z.xyz * n.z;
+}
+
+// Starts a ray where it is nearest to `center`.
+fn anchored(ray: LocalRay, center: vec3f) -> Anchored {
+    let shift = dot(center - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+    return Anchored(ray.origin + ray.direction * shift, shift);
+}
+
+fn part_span(part: u32, lens_ray: LensRay) -> Span {
+    let ray = local_ray(part, lens_ray);
+    var span = no_span();
+    switch parts[part].form {
+        case FORM_SPHERE: {
+            span = ball_span(ray, vec3f(0.0));
+        }
+        case FORM_CONE: {
+            span = cone_span(ray, parts[part].r0, parts[part].r1);
+        }
+        case FORM_CAPSULE: {
+            span = capsule_span(ray, parts[part].length);
+        }
+        case FORM_HALF_SPACES: {
+            span = half_space_span(part, lens_ray);
+        }
+        default: {
+        }
+    }
+    span.hit = span.hit && span.exit > span.entry;
+    return span;
+}
+
+fn ball_span(ray: LocalRay, center: vec3f) -> Span {
+    let start = anchored(ray, center);
+    let a = dot(ray.direction, ray.direction);
+    let offset = start.origin - center;
+    let c = dot(offset, offset) - 1.0;
+    if c >= 0.0 {
+        return no_span();
+    }
+    let half = sqrt(-c / a);
+    return Span(start.shift - half, start.shift + half, 0u, 0u, true);
+}
+
+// The slab between the caps and the inside of the side; where a ray goes through a rim or the apex, rounding moves
+// the crossing from one to the other, and nothing is lost. Twin of `cone_span` and `side_span` in `lens/form.rs`.
+fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
+    let start = anchored(ray, vec3f(0.0, 0.0, 0.5));
+    let o = start.origin;
+    let d = ray.direction;
+    var t0 = -FAR_AWAY;
+    var t1 = FAR_AWAY;
+    if d.z != 0.0 {
+        let low = clamp(-o.z / d.z, -FAR_AWAY, FAR_AWAY);
+        let high = clamp((1.0 - o.z) / d.z, -FAR_AWAY, FAR_AWAY);
+        t0 = min(low, high);
+        t1 = max(low, high);
+    } else if o.z < 0.0 || o.z > 1.0 {
+        return no_span();
+    }
+    let slope = r1 - r0;
+    let radius = r0 + slope * o.z;
+    let widening = slope * d.z;
+    let a = dot(d.xy, d.xy) - widening * widening;
+    let b = dot(o.xy, d.xy) - widening * radius;
+    let c = dot(o.xy, o.xy) - radius * radius;
+    var inward = -FAR_AWAY;
+    var outward = FAR_AWAY;
+    // Where a t^2 + 2 b t + c falls and rises through zero, without cancellation, for any a.
+    let discriminant = b * b - a * c;
+    if discriminant > 0.0 {
+        let root = sqrt(discriminant);
+        var falls = 0.0;
+        var rises = 0.0;
+        if b > 0.0 {
+            falls = (-b - root) / select(a, 1e-30, a == 0.0);
+            rises = c / (-b - root);
+        } else {
+            falls = c / (-b + root);
+            rises = (-b + root) / select(a, 1e-30, a == 0.0);
+        }
+        // Steeper than the side, the ray is inside both halves of the double cone, and one of them is meant.
+        if a >= 0.0 || widening > 0.0 {
+            inward = falls;
+        }
+        if a >= 0.0 || widening <= 0.0 {
+            outward = rises;
+        }
+    } else if a < 0.0 {
+        if widening > 0.0 {
+            inward = -radius / widening;
+        } else {
+            outward = -radius / widening;
+        }
+    } else if a > 0.0 || c >= 0.0 {
+        return no_span();
+    }
+    var span = Span(t0, t1, select(1u, 0u, d.z > 0.0), select(0u, 1u, d.z > 0.0), true);
+    if inward > t0 {
+        span.entry = inward;
+        span.entry_face = CONE_SIDE;
+    }
+    if outward < t1 {
+        span.exit = outward;
+        span.exit_face = CONE_SIDE;
+    }
+    if span.entry >= span.exit {
+        return no_span();
+    }
+    span.entry += start.shift;
+    span.exit += start.shift;
+    return span;
+}
+
+// Two balls and the cylinder between them: their union is convex.
+fn capsule_span(ray: LocalRay, length: f32) -> Span {
+    var span = united(ball_span(ray, vec3f(0.0)), ball_span(ray, vec3f(0.0, 0.0, length)));
+    if length > 0.0 {
+        let squeeze = vec3f(1.0, 1.0, 1.0 / length);
+        span = united(span, cone_span(LocalRay(ray.origin * squeeze, ray.direction * squeeze), 1.0, 1.0));
+    }
+    span.entry_face = 0u;
+    span.exit_face = 0u;
+    return span;
+}
+
+fn united(a: Span, b: Span) -> Span {
+    if !a.hit {
+        return b;
+    }
+    if !b.hit {
+        return a;
+    }
+    return Span(min(a.entry, b.entry), max(a.exit, b.exit), 0u, 0u, true);
+}
+
+fn half_space_span(part: u32, ray: LensRay) -> Span {
+    var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
+    if (parts[part].flags & PART_DEPTH_MAP) != 0u && !ray.is_moved {
+        let cell = map_cell(part, ray.at);
+        let entry = layers[cell];
+        let exit = layers[cell + 1u];
+        let around_eye = (parts[part].flags & PART_HOLDS_EYE) != 0u;
+        if exit != 0u && (entry != 0u || around_eye) {
+            span.exit = plane_crossing(part, exit - 1u, ray).t;
+            span.exit_face = exit - 1u;
+            if entry != 0u {
+                span.entry = plane_crossing(part, entry - 1u, ray).t;
+                span.entry_face = entry - 1u;
+            }
+            return span;
+        }
+        if exit == 0u && entry == 0u {
+            return no_span();
+        }
+        // A pixel between faces that rounding has torn apart: all planes are asked.
+    }
+    for (var face = 0u; face < parts[part].plane_count; face += 1u) {
+        let crossing = plane_crossing(part, face, ray);
+        if crossing.rate == 0.0 {
+            if crossing.distance > 0.0 {
+                return no_span();
+            }
+        } else if crossing.rate < 0.0 {
+            if crossing.t > span.entry {
+                span.entry = crossing.t;
+                span.entry_face = face;
+            }
+        } else if crossing.t < span.exit {
+            span.exit = crossing.t;
+            span.exit_face = face;
+        }
+    }
+    return span;
+}
+
+// The cell of a pixel in a part's depth map: the entry face plus one, then the exit face plus one.
+fn map_cell(part: u32, at: vec2f) -> u32 {
+    let low = parts[part].map_min;
+    let within = clamp(vec2u(at) - frame.window_min, low, low + parts[part].map_size - 1u) - low;
+    return parts[part].map_first + 2u * (within.y * parts[part].map_size.x + within.x);
+}

@@ -1,0 +1,155 @@
+//! The parts of lenses as records: solids as functions of the pixel, and their surfaces.
+
+use glam::{DAffine3, DVec3};
+
+use super::depth_maps::{DepthMap, DepthMaps};
+use super::records::{self, PartRecord, extended, rows};
+use crate::lens::{Form, MeshSolid, Plane, Solid};
+use crate::view::View;
+
+/// Parts with the vectors that they point into.
+#[derive(Debug, Clone, Default)]
+pub struct PartData {
+    pub records: Vec<PartRecord>,
+    /// Planes and corners.
+    pub vectors: Vec<[f32; 4]>,
+    /// Meshes, and the programs of lenses and rules.
+    pub words: Vec<u32>,
+}
+
+/// What a ray is, relative to the eye, at a point (x, y) of the picture: `fixed` and `base + x dx + y dy`.
+#[derive(Debug, Clone, Copy)]
+pub struct AffineRay {
+    /// The origin of a perspective camera's rays, the direction of an orthographic one's.
+    pub fixed: DVec3,
+    pub base: DVec3,
+    pub dx: DVec3,
+    pub dy: DVec3,
+}
+
+impl AffineRay {
+    pub fn new(view: &View) -> Self {
+        let corner = view.ray(0.0, 0.0);
+        let (dx, dy) = view.pixel_steps();
+        let origin = corner.origin - view.eye;
+        if view.is_perspective() {
+            Self { fixed: origin, base: corner.direction, dx, dy }
+        } else {
+            Self { fixed: corner.direction, base: origin, dx, dy }
+        }
+    }
+
+    /// The same in another space, of which `local` is the map from the space around the eye.
+    fn in_space(&self, local: &DAffine3, perspective: bool) -> Self {
+        let point = |p| local.transform_point3(p);
+        let vector = |v| local.transform_vector3(v);
+        let (fixed, base) =
+            if perspective { (point(self.fixed), vector(self.base)) } else { (vector(self.fixed), point(self.base)) };
+        Self { fixed, base, dx: vector(self.dx), dy: vector(self.dy) }
+    }
+
+    /// The coefficients of a plane: its distance along the origins and its rate along the directions, one of them
+    /// fixed (first), the other a function of the pixel.
+    fn plane(&self, plane: &Plane, perspective: bool) -> [f32; 4] {
+        let n = plane.normal;
+        let (fixed, base) = if perspective {
+            (plane.distance(self.fixed), n.dot(self.base))
+        } else {
+            (n.dot(self.fixed), plane.distance(self.base))
+        };
+        [fixed, base, n.dot(self.dx), n.dot(self.dy)].map(|c| c as f32)
+    }
+}
+
+impl PartData {
+    /// Appends a part of the lens of the given rank.
+    pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, maps: &DepthMaps, crossings: u32) {
+        let perspective = view.is_perspective();
+        let local_from_eye = solid.local_from_world * DAffine3::from_translation(view.eye);
+        let ray = AffineRay::new(view).in_space(&local_from_eye, perspective);
+        let normals = solid.local_from_world.matrix3.transpose();
+        let [local_x, local_y, local_z] = rows(&local_from_eye);
+        let mut record = PartRecord {
+            ray_fixed: extended(ray.fixed),
+            ray_base: extended(ray.base),
+            ray_dx: extended(ray.dx),
+            ray_dy: extended(ray.dy),
+            normal_x: extended(normals.x_axis),
+            normal_y: extended(normals.y_axis),
+            normal_z: extended(normals.z_axis),
+            local_x,
+            local_y,
+            local_z,
+            lens: rank,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        if solid.is_flat {
+            record.flags |= records::PART_FLAT;
+            record.first_corner = self.vectors.len() as u32;
+            record.corner_count = solid.hull.len() as u32;
+            self.vectors.extend(solid.hull.iter().map(|p| extended(*p - view.eye)));
+        }
+        self.set_form(&mut record, solid, &local_from_eye, &ray, perspective);
+        if let Form::Mesh(mesh) = &solid.form {
+            self.set_mesh(&mut record, mesh);
+            record.crossing_room = crossings;
+        }
+        if let Some(map) = maps.of_part(self.records.len()) {
+            set_map(&mut record, map, solid.contains(view.eye));
+        }
+        self.records.push(record);
+    }
+
+    fn set_form(
+        &mut self,
+        record: &mut PartRecord,
+        solid: &Solid,
+        local_from_eye: &DAffine3,
+        ray: &AffineRay,
+        perspective: bool,
+    ) {
+        match &solid.form {
+            Form::Sphere => record.form = records::FORM_SPHERE,
+            Form::Cone { r0, r1 } => {
+                record.form = records::FORM_CONE;
+                (record.r0, record.r1) = (*r0 as f32, *r1 as f32);
+            }
+            Form::Capsule { length } => {
+                record.form = records::FORM_CAPSULE;
+                record.length = *length as f32;
+            }
+            Form::HalfSpaces { planes, hidden } => {
+                record.form = records::FORM_HALF_SPACES;
+                record.first_plane = self.vectors.len() as u32;
+                record.plane_count = planes.len() as u32;
+                record.hidden = *hidden as u32;
+                let to_world = solid.local_from_world.matrix3.transpose();
+                for plane in planes {
+                    self.vectors.push(ray.plane(plane, perspective));
+                    let gradient = to_world * plane.normal;
+                    let offset = (plane.offset - plane.normal.dot(local_from_eye.translation)) / gradient.length();
+                    self.vectors.push(gradient.normalize_or_zero().extend(offset).as_vec4().to_array());
+                }
+            }
+            Form::Mesh(_) => record.form = records::FORM_MESH,
+            Form::Empty => record.form = records::FORM_EMPTY,
+        }
+    }
+
+    fn set_mesh(&mut self, record: &mut PartRecord, mesh: &MeshSolid) {
+        record.first_node = self.words.len() as u32;
+        record.node_count = mesh.nodes.len() as u32;
+        self.words.extend_from_slice(bytemuck::cast_slice(&mesh.nodes));
+        record.first_triangle = self.words.len() as u32;
+        self.words.extend_from_slice(mesh.triangles.as_flattened());
+        record.first_vertex = self.words.len() as u32;
+        self.words.extend(mesh.vertices.iter().flat_map(|v| v.as_vec3().to_array()).map(f32::to_bits));
+    }
+}
+
+fn set_map(record: &mut PartRecord, map: &DepthMap, holds_eye: bool) {
+    record.flags |= records::PART_DEPTH_MAP | if holds_eye { records::PART_HOLDS_EYE } else { 0 };
+    record.map_first = map.first as u32;
+    record.map_min = map.rect.min;
+    record.map_size = [map.rect.max[0] - map.rect.min[0], map.rect.max[1] - map.rect.min[1]];
+}

@@ -1,0 +1,68 @@
+//! The plan on the device: the buffers of group 1, which live for one frame.
+
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+
+use super::item_data::ItemData;
+use super::lens_data::LensData;
+use super::records::FrameRecord;
+use super::upload::check_size;
+use super::{Error, bindings};
+use crate::plan::{LightRecord, Plan};
+
+/// What goes into the buffers besides the plan itself.
+pub struct PlanContents<'a> {
+    pub plan: &'a Plan,
+    pub frames: &'a [u8],
+    pub items: &'a ItemData,
+    pub lenses: &'a LensData,
+    pub tiles: &'a [u32],
+}
+
+impl PlanContents<'_> {
+    /// Uploads everything; `allowed`: the most bytes of one buffer.
+    pub fn upload(
+        &self,
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        allowed: u64,
+    ) -> Result<wgpu::BindGroup, Error> {
+        let Self { plan, items, lenses, .. } = self;
+        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
+        let buffer = |label, bytes| plan_buffer(device, allowed, label, bytes, wgpu::BufferUsages::STORAGE);
+        let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::UNIFORM)?;
+        let storage = [
+            buffer("the plan's items", &items.items)?,
+            buffer("the plan's steps of movers", bytemuck::cast_slice(&items.steps))?,
+            buffer("the plan's lenses", &lenses.lenses)?,
+            buffer("the plan's parts of lenses", bytemuck::cast_slice(&lenses.parts.records))?,
+            buffer("the plan's planes and corners of lenses", bytemuck::cast_slice(&lenses.parts.vectors))?,
+            buffer("the plan's programs and meshes of lenses", bytemuck::cast_slice(&lenses.parts.words))?,
+            buffer("the plan's filters", bytemuck::cast_slice(&plan.ops))?,
+            buffer("the plan's lights", bytemuck::cast_slice(&lights))?,
+            buffer("the window's tiles", bytemuck::cast_slice(self.tiles))?,
+        ];
+        let record = wgpu::BufferBinding {
+            buffer: &frames,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<FrameRecord>() as u64),
+        };
+        let mut resources = vec![wgpu::BindingResource::Buffer(record)];
+        resources.extend(storage.iter().map(wgpu::Buffer::as_entire_binding));
+        Ok(bindings::group(device, "plan", layout, &resources))
+    }
+}
+
+/// A buffer of the plan, never smaller than any record. Its label starts with whose it is: what is the window's gets
+/// smaller with the window.
+pub fn plan_buffer(
+    device: &wgpu::Device,
+    allowed: u64,
+    label: &str,
+    bytes: &[u8],
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, Error> {
+    check_size(allowed, label, bytes.len() as u64)?;
+    let mut contents = bytes.to_vec();
+    contents.resize(contents.len().max(1024), 0);
+    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents: &contents, usage }))
+}

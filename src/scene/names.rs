@@ -1,0 +1,47 @@
+//! Nodes by their names.
+
+use super::Model;
+use crate::spec::Pattern;
+
+impl Model {
+    /// The one node of a name, or what is wrong with the name and what to do about it.
+    pub fn node_named(&self, name: &str) -> Result<usize, (String, String)> {
+        let found: Vec<usize> = (0..self.nodes.len()).filter(|i| self.nodes[*i].name == name).collect();
+        match found[..] {
+            [node] => Ok(node),
+            [] => Err((format!("`{}` has no node named `{name}`", self.name), self.nearest_node_name(name))),
+            _ => Err((
+                format!("{} nodes of `{}` are named `{name}`", found.len(), self.name),
+                "one node is meant here; give that node a name of its own".into(),
+            )),
+        }
+    }
+
+    /// What to write instead of a node name that is not there.
+    pub fn nearest_node_name(&self, name: &str) -> String {
+        let names = self.nodes.iter().map(|n| n.name.as_str()).filter(|n| !n.is_empty());
+        match names.map(|n| (strsim::jaro_winkler(n, name), n)).max_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((score, nearest)) if score > 0.8 => format!("did you mean `{nearest}`?"),
+            _ => "`lenspeel info` lists the nodes of a model".into(),
+        }
+    }
+
+    /// A node's name, or `node N` where the file gives none.
+    pub fn node_label(&self, node: usize) -> String {
+        or_number(&self.nodes[node].name, "node", node)
+    }
+
+    /// A material's name, or `material N` where the file gives none.
+    pub fn material_label(&self, material: usize) -> String {
+        or_number(&self.materials[material].name, "material", material)
+    }
+
+    /// Whether the pattern matches the node's own name or any ancestor's.
+    pub fn node_matches(&self, node: usize, pattern: &Pattern) -> bool {
+        std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))
+    }
+}
+
+fn or_number(name: &str, kind: &str, number: usize) -> String {
+    if name.is_empty() { format!("{kind} {number}") } else { name.to_string() }
+}

@@ -1,0 +1,186 @@
+//! What a ray meets: every triangle of everything, wherever movers may have put it.
+
+use glam::{DAffine3, DVec3};
+
+use super::solid::hit;
+use super::view::{Ray, View};
+use super::walk::{Act, Actor, Composition, Met, Outcome, Subject};
+use super::{names, place};
+use crate::case::{Case, Filter};
+
+/// Surfaces closer than this share of the depth to a boundary or to each other, at least of one unit, are in doubt.
+pub const DOUBT: f64 = 1e-4;
+
+/// A way in which a primitive may be shown: moved by some filters, or by none.
+struct Candidate {
+    subject: usize,
+    moves: Vec<Act>,
+    is_single_sided: bool,
+    /// World space, where they would be shown.
+    triangles: Vec<[DVec3; 3]>,
+}
+
+/// All that may be seen in a case.
+pub struct Stage<'a> {
+    pub case: &'a Case,
+    pub view: View,
+    pub composition: Composition<'a>,
+    pub subjects: Vec<Subject>,
+    candidates: Vec<Candidate>,
+    /// The largest depth of a corner of a scene's triangle in its place.
+    farthest: f64,
+}
+
+/// A fragment on a ray.
+pub struct Hit {
+    pub depth: f64,
+    pub subject: usize,
+    /// World space, where it is shown.
+    pub triangle: [DVec3; 3],
+    /// `None` where rounding decides whether and how it is shown, or SEMANTICS does not say.
+    pub met: Option<Met>,
+}
+
+impl<'a> Stage<'a> {
+    pub fn new(case: &'a Case) -> Self {
+        let view = View::new(&case.camera);
+        let composition = Composition::new(case, &view);
+        let subjects = subjects(case, &composition);
+        let movers = composition.movers();
+        let placed = |subject: &Subject| {
+            let node = &case.models[subject.model].nodes[subject.node];
+            let world = place::of_node(&case.models[subject.model], subject.node);
+            let corners = node.primitives.iter().flat_map(|p| p.triangles.iter().flatten());
+            corners.map(|p| (world.transform_point3(*p) - view.eye).dot(view.forward)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let farthest = subjects.iter().map(placed).fold(f64::NEG_INFINITY, f64::max);
+        let mut stage = Self { case, view, composition, subjects, candidates: Vec::new(), farthest };
+        for subject in 0..stage.subjects.len() {
+            for chain in 0..1usize << movers.len() {
+                let moves = (0..movers.len()).filter(|i| chain >> i & 1 == 1).map(|i| movers[i]).collect();
+                stage.candidates.extend(stage.candidate(subject, moves));
+            }
+        }
+        stage
+    }
+
+    /// Moved forward by the inverse of what the walk does.
+    fn candidate(&self, index: usize, moves: Vec<Act>) -> Option<Candidate> {
+        let subject = &self.subjects[index];
+        let mut source_from_shown = DAffine3::IDENTITY;
+        for act in &moves {
+            source_from_shown = self.composition.source_from_shown(*act, subject)? * source_from_shown;
+        }
+        let model = &self.case.models[subject.model];
+        let world = place::of_node(model, subject.node);
+        let shown = source_from_shown.inverse() * world;
+        let primitive = &model.nodes[subject.node].primitives[subject.primitive];
+        let mirrored = world.matrix3.determinant() < 0.0;
+        let place = |t: &[DVec3; 3]| {
+            let [a, b, c] = t.map(|p| shown.transform_point3(p));
+            // A mirrored triangle winds the other way round.
+            if mirrored { [a, c, b] } else { [a, b, c] }
+        };
+        Some(Candidate {
+            subject: index,
+            moves,
+            is_single_sided: self.case.cull && !model.materials[primitive.material].double_sided,
+            triangles: primitive.triangles.iter().map(place).collect(),
+        })
+    }
+
+    /// Every fragment between near and far that is displayed or may be, nearest first.
+    pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        for candidate in &self.candidates {
+            for triangle in &candidate.triangles {
+                let Some(depth) = hit(ray, triangle) else { continue };
+                let [a, b, c] = *triangle;
+                let seen_from_behind = (b - a).cross(c - a).dot(ray.direction) > 0.0;
+                if candidate.is_single_sided && seen_from_behind {
+                    continue;
+                }
+                let met = match self.meet(candidate, ray, depth) {
+                    Outcome::Gone => continue,
+                    Outcome::Shown(met) => Some(met),
+                    Outcome::Open => None,
+                };
+                hits.push(Hit { depth, subject: candidate.subject, triangle: *triangle, met });
+            }
+        }
+        hits.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        hits
+    }
+
+    /// What the walk says of a hit; open where a little nearer or farther it says something else.
+    fn meet(&self, candidate: &Candidate, ray: &Ray, depth: f64) -> Outcome {
+        let near = DOUBT * depth.abs().max(1.0);
+        let [here, before, behind] = [depth, depth - near, depth + near].map(|d| self.verdict(candidate, ray, d));
+        let same = |there: &Outcome| match (&here, there) {
+            (Outcome::Shown(a), Outcome::Shown(b)) => a.set == b.set && a.stack == b.stack,
+            (a, b) => a == b,
+        };
+        if same(&before) && same(&behind) { here } else { Outcome::Open }
+    }
+
+    /// Whether this is what is shown there.
+    fn verdict(&self, candidate: &Candidate, ray: &Ray, depth: f64) -> Outcome {
+        if depth < self.view.near || depth > self.view.far {
+            return Outcome::Gone;
+        }
+        match self.composition.walk(&self.subjects[candidate.subject], ray.at(depth)) {
+            Outcome::Shown(met) if met.moves != candidate.moves => Outcome::Gone,
+            outcome => outcome,
+        }
+    }
+
+    /// Whether the end of a flat lens on a ray may lie beyond a fitted far plane: how far that is, is not said.
+    pub fn may_pass_far(&self, ray: &Ray) -> bool {
+        let ends_late = |lens: &&super::walk::Lens| {
+            lens.solid.has_flat_part() && lens.boundaries(ray).iter().any(|depth| *depth > self.farthest)
+        };
+        self.case.camera.far.is_none() && self.composition.lenses.iter().find(ends_late).is_some()
+    }
+
+    /// Where lenses begin and end along a ray between near and far, nearest first.
+    pub fn boundaries(&self, ray: &Ray) -> Vec<f64> {
+        let order = self.composition.order.iter();
+        let mut all: Vec<f64> = order.flat_map(|lens| self.composition.lenses[*lens].boundaries(ray)).collect();
+        all.retain(|depth| *depth > self.view.near && *depth < self.view.far);
+        all.sort_by(f64::total_cmp);
+        all
+    }
+}
+
+/// The scene's fragments, then those that each `show` brings in.
+fn subjects(case: &Case, composition: &Composition) -> Vec<Subject> {
+    let mut subjects = Vec::new();
+    add(case, 0, None, &|node| !names::node_matches(&case.models[0], node, &case.hide), &mut subjects);
+    let lenses = composition.order.iter().map(|lens| (Actor::Lens(*lens), &case.lenses[*lens].filters));
+    let rules = case.rules.iter().enumerate().map(|(rule, r)| (Actor::Rule(rule), &r.filters));
+    for (by, filters) in lenses.chain(rules) {
+        for (filter, what) in filters.iter().enumerate() {
+            let shown_by = Some(Act { by, filter });
+            match what {
+                Filter::ShowAlternate(model) => add(case, *model, shown_by, &|_| true, &mut subjects),
+                Filter::ShowNodes(patterns) => {
+                    let is_named = |node: usize| names::node_matches(&case.models[0], node, patterns);
+                    add(case, 0, shown_by, &is_named, &mut subjects);
+                }
+                _ => {}
+            }
+        }
+    }
+    subjects
+}
+
+fn add(case: &Case, model: usize, shown_by: Option<Act>, has: &dyn Fn(usize) -> bool, subjects: &mut Vec<Subject>) {
+    for (node, data) in case.models[model].nodes.iter().enumerate().filter(|(node, _)| has(*node)) {
+        if data.primitives.is_empty() {
+            continue;
+        }
+        let center = place::center_of_node(&case.models[model], node);
+        let primitives = 0..data.primitives.len();
+        subjects.extend(primitives.map(|primitive| Subject { model, node, primitive, shown_by, center }));
+    }
+}

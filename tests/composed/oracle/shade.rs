@@ -1,0 +1,171 @@
+//! What a stack makes of a fragment's colour, opacity and coverage, as far as unlit surfaces tell.
+
+use glam::DVec3;
+
+use super::look::{Hit, Stage};
+use super::walk::{Actor, Met, Stack};
+use crate::case::{Color, Filter};
+
+/// A fragment as it goes into the picture.
+#[derive(Debug, Clone)]
+pub struct Shade {
+    /// Linear light; `None` where light, or a fade, decides.
+    pub color: Option<DVec3>,
+    pub opacity: f64,
+    /// `None` on the rim of a wire.
+    pub covered: Option<bool>,
+}
+
+/// Pixels around the rim of a wire where its coverage is in doubt.
+const RIM: f64 = 1.0;
+
+/// How much farther than `soft` a boundary must be for a lens to act in full whatever its shape: distances are only of
+/// first order where it is stretched.
+const SURELY: f64 = 4.0;
+
+/// A filter of a stack and how much of it acts: all but where its lens fades (5.6), and there not always known.
+type Acting<'a> = (&'a Filter, Option<f64>);
+
+fn acting<'a>(stage: &Stage<'a>, hit: &Hit, met: &Met) -> Vec<Acting<'a>> {
+    let lenses = match &met.stack {
+        Stack::Rule(rule) => return stage.case.rules[*rule].filters.iter().map(|filter| (filter, Some(1.0))).collect(),
+        Stack::Lenses(lenses) => lenses,
+    };
+    let amount = |lens: usize| {
+        let (spec, placed) = (&stage.case.lenses[lens], &stage.composition.lenses[lens]);
+        if spec.soft == 0.0 {
+            return Some(1.0);
+        }
+        let at = if spec.by_object { stage.subjects[hit.subject].center } else { met.asked_at(lens) };
+        let exact = placed.depth_inside(at).map(|depth| (depth / spec.soft).clamp(0.0, 1.0));
+        exact.or_else(|| placed.contains_ball(at, SURELY * spec.soft).then_some(1.0))
+    };
+    let of = |lens: &usize| {
+        let amount = amount(*lens);
+        stage.case.lenses[*lens].filters.iter().map(move |filter| (filter, amount))
+    };
+    lenses.iter().flat_map(of).collect()
+}
+
+/// From what was to what a filter makes of it, as far as both are known.
+fn faded(before: Option<DVec3>, after: Option<DVec3>, amount: Option<f64>) -> Option<DVec3> {
+    if amount == Some(1.0) { after } else { Some(before?.lerp(after?, amount?)) }
+}
+
+pub fn shade(stage: &Stage, hit: &Hit, met: &Met, pixel: [f64; 2]) -> Shade {
+    let filters = acting(stage, hit, met);
+    let (color, opacity) = surface(stage, hit, &filters);
+    // A lens that fades out all there is: somewhere nothing is left.
+    let may_be_gone = filters.iter().any(|(filter, amount)| amount.is_none() && alpha_of(filter) == 0.0);
+    let shade = Shade { color: colored(color, &filters), opacity, covered: (!may_be_gone).then_some(true) };
+    wired(stage, met, shade, &filters, wire_distance(stage, hit, pixel))
+}
+
+/// Colour before colour filters, and opacity.
+fn surface(stage: &Stage, hit: &Hit, filters: &[Acting]) -> (Option<DVec3>, f64) {
+    let subject = &stage.subjects[hit.subject];
+    let model = &stage.case.models[subject.model];
+    let material = &model.materials[model.nodes[subject.node].primitives[subject.primitive].material];
+    let [r, g, b, mut opacity] = material.color;
+    let mut base = Some(DVec3::new(r, g, b));
+    let mut lit = if material.unlit { 0.0 } else { 1.0 };
+    let mut opacity_is_known = true;
+    for (filter, amount) in filters {
+        match filter {
+            Filter::Unlit(Some(color)) | Filter::Material(color) => base = faded(base, Some(linear(*color)), *amount),
+            Filter::Normals => base = faded(base, None, *amount),
+            _ => {}
+        }
+        if matches!(filter, Filter::Unlit(_) | Filter::Normals) {
+            lit *= 1.0 - amount.unwrap_or(0.0);
+        }
+        // Where the amount is not known some of it is: less than opaque is all that counts then.
+        let alpha = alpha_of(filter);
+        opacity *= 1.0 + (alpha - 1.0) * amount.unwrap_or(0.5);
+        opacity_is_known &= amount.is_some() || alpha == 1.0;
+    }
+    (base.filter(|_| lit == 0.0 && opacity_is_known), opacity)
+}
+
+/// What a filter multiplies the opacity by.
+fn alpha_of(filter: &Filter) -> f64 {
+    match filter {
+        Filter::Opacity(value) => *value,
+        Filter::Unlit(Some(color)) | Filter::Material(color) | Filter::Tint(color, _) => f64::from(color[3]) / 255.0,
+        _ => 1.0,
+    }
+}
+
+fn colored(mut color: Option<DVec3>, filters: &[Acting]) -> Option<DVec3> {
+    for (filter, amount) in filters {
+        let after = |c: DVec3| match filter {
+            Filter::Tint(tint, share) => c.lerp(linear(*tint), *share),
+            Filter::Grayscale(share) => c.lerp(DVec3::splat(c.dot(DVec3::new(0.2126, 0.7152, 0.0722))), *share),
+            Filter::Invert(share) => {
+                c.lerp(DVec3::from_array(c.to_array().map(|x| to_linear(1.0 - to_srgb(x)))), *share)
+            }
+            _ => c,
+        };
+        let is_of_this_stage = matches!(filter, Filter::Tint(..) | Filter::Grayscale(_) | Filter::Invert(_));
+        if is_of_this_stage {
+            color = faded(color, color.map(after), *amount);
+        }
+    }
+    color
+}
+
+/// After the coverage filters; `distance` in pixels to the nearest edge of the triangle.
+fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], distance: f64) -> Shade {
+    for (filter, amount) in filters {
+        let Filter::Wireframe { width, color, filled } = filter else { continue };
+        // Whether a magnifier above makes the lines wider is not said: both count as a rim.
+        let widest = width * magnified(stage, met);
+        let on_wire = match distance {
+            d if d < 0.5 * width - RIM => Some(true),
+            d if d > 0.5 * widest + RIM => Some(false),
+            _ => None,
+        };
+        match on_wire {
+            Some(true) => shade.color = faded(shade.color, color.map(linear).or(shade.color), *amount),
+            Some(false) if *filled => {}
+            // Between the wires a lens that fades leaves some of the surface.
+            Some(false) => shade.covered = shade.covered.filter(|_| *amount == Some(1.0)).map(|_| false),
+            None if *filled => shade.color = None,
+            None => shade.covered = None,
+        }
+    }
+    shade
+}
+
+/// Pixels from a place of the picture to the nearest edge of a triangle, where it is shown.
+fn wire_distance(stage: &Stage, hit: &Hit, [x, y]: [f64; 2]) -> f64 {
+    let distance = |i: usize| {
+        let (a, b) = (hit.triangle[i], hit.triangle[(i + 1) % 3]);
+        let [a, b] = [a, b].map(|p| stage.view.project(p));
+        let (along, from) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
+        (along[0] * from[1] - along[1] * from[0]).abs() / along[0].hypot(along[1])
+    };
+    (0..3).map(distance).fold(f64::INFINITY, f64::min)
+}
+
+/// How many times larger than it is a fragment is shown; at least once.
+fn magnified(stage: &Stage, met: &Met) -> f64 {
+    let factors = met.moves.iter().map(|act| match (act.by, stage.composition.filter(*act)) {
+        (Actor::Lens(_), Filter::Magnify { factor, .. }) => factor.max(1.0),
+        _ => 1.0,
+    });
+    factors.product()
+}
+
+pub fn linear([r, g, b, _]: Color) -> DVec3 {
+    DVec3::from_array([r, g, b].map(|c| to_linear(f64::from(c) / 255.0)))
+}
+
+/// The transfer function of IEC 61966-2-1.
+fn to_linear(c: f64) -> f64 {
+    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+pub fn to_srgb(c: f64) -> f64 {
+    if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
+}
