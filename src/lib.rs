@@ -4,6 +4,7 @@
 pub mod appearance;
 pub mod cli;
 pub mod cpu;
+pub mod debug_view;
 mod error;
 pub mod explain;
 pub mod frame;

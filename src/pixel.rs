@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use crate::appearance::OPAQUE_FROM;
 use crate::lens::LayerStart;
 use crate::plan::{LensSet, Region};
 
@@ -53,4 +54,21 @@ pub struct PixelReport {
     pub visible: Option<Visible>,
     /// What lenses take away in front of the visible fragment, nearest first.
     pub removed: Vec<Removed>,
+}
+
+impl PixelReport {
+    /// Takes the next fragment, nearest first, that the lenses leave with this opacity and coverage; false where it
+    /// ends the ray.
+    pub(crate) fn push(&mut self, survivor: Survivor, normal: Vec3) -> bool {
+        let Survivor { fragment, opacity, coverage } = survivor;
+        if opacity * coverage <= 0.0 {
+            return true;
+        }
+        self.fragments.push(survivor);
+        let ends = coverage >= 0.5 && opacity >= OPAQUE_FROM.0;
+        if ends || (coverage >= 0.5 && self.visible.is_none()) {
+            self.visible = Some(Visible { fragment, normal });
+        }
+        !ends
+    }
 }

@@ -157,6 +157,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             target_is_srgb,
             lens_count,
             rule_count,
+            list_all,
             by_pixel,
             translucent
         ]
@@ -174,7 +175,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             normal_y,
             normal_z,
             material,
-            node,
+            instance,
             first_triangle,
             flags,
             first_index,

@@ -1,9 +1,9 @@
 // What lies at the centre of each pixel: the visible fragment of SEMANTICS 6.4.
 
-// For each pixel: layers, node plus one, depth, normal, found, then the words of the set and of the stack. Twin of `aov.rs`.
+// For each pixel: layers, found, instance, number of its triangle among all, depth, normal, then the words of the set and of the stack. Twin of `aov.rs`.
 @group(2) @binding(4) var<storage, read_write> maps: array<u32>;
 
-const MAP_WORDS: u32 = 7u + 2u * WORDS;
+const MAP_WORDS: u32 = 8u + 2u * WORDS;
 
 @compute @workgroup_size(8, 8)
 fn aovs(@builtin(global_invocation_id) id: vec3u) {
@@ -41,14 +41,15 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     }
     let at = (pixel.y * frame.window_size.x + pixel.x) * MAP_WORDS;
     maps[at] = layer_count(tile, pixel);
-    maps[at + 1u] = select(0u, items[visible.item].node, found != 0u);
-    maps[at + 2u] = bitcast<u32>(visible.depth);
-    maps[at + 3u] = bitcast<u32>(normal.x);
-    maps[at + 4u] = bitcast<u32>(normal.y);
-    maps[at + 5u] = bitcast<u32>(normal.z);
-    maps[at + 6u] = found;
+    maps[at + 1u] = found;
+    maps[at + 2u] = items[visible.item].instance;
+    maps[at + 3u] = items[visible.item].first_triangle + visible.triangle;
+    maps[at + 4u] = bitcast<u32>(visible.depth);
+    maps[at + 5u] = bitcast<u32>(normal.x);
+    maps[at + 6u] = bitcast<u32>(normal.y);
+    maps[at + 7u] = bitcast<u32>(normal.z);
     for (var w = 0u; w < WORDS; w += 1u) {
-        maps[at + 7u + w] = visible.around.words[w];
-        maps[at + 7u + WORDS + w] = visible.stack.words[w];
+        maps[at + 8u + w] = visible.around.words[w];
+        maps[at + 8u + WORDS + w] = visible.stack.words[w];
     }
 }

@@ -58,8 +58,9 @@ struct Frame {
     // Overlap rules stand behind the lenses.
     lens_count: u32,
     rule_count: u32,
-    pad_a: u32,
-    pad_b: u32,
+    // Not 0: every fragment is listed, whatever the lenses make of it.
+    list_all: u32,
+    pad: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,
@@ -85,8 +86,8 @@ struct Item {
     normal_y: vec4f,
     normal_z: vec4f,
     material: u32,
-    // Node index plus one.
-    node: u32,
+    // Its number in the plan.
+    instance: u32,
     first_triangle: u32,
     flags: u32,
     first_index: u32,

@@ -74,6 +74,10 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
 fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> vec2u {
     let verdict = walk(item, ray, depth, inside);
+    if frame.list_all != 0u {
+        append(pixel, depth, item, triangle);
+        discard;
+    }
     if !verdict.displayed {
         discard;
     }

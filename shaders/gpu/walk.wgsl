@@ -66,12 +66,16 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
             }
             if MOVERS && !shown && (movers & flag) != 0u {
                 if step == last_step || steps[step].rank != rank {
-                    // It is seen elsewhere.
-                    return verdict;
+                    // It is seen elsewhere; only an account asks who else acts here.
+                    if frame.list_all == 0u {
+                        return verdict;
+                    }
+                    removed = true;
+                } else {
+                    inside = set_below(item, step, ray, depth);
+                    rest = applying_word(item, inside, word) & (flag - 1u);
+                    step += 1u;
                 }
-                inside = set_below(item, step, ray, depth);
-                rest = applying_word(item, inside, word) & (flag - 1u);
-                step += 1u;
             }
             if shows {
                 shown = true;

@@ -71,6 +71,12 @@ pub struct RenderArgs {
     /// Also write a map: region, depth, normal, node or layers (repeatable)
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_aov)]
     pub aov: Vec<(Aov, PathBuf)>,
+    /// Draw how the picture comes about instead of the picture, with a legend
+    #[arg(long, value_enum)]
+    pub view: Option<ViewChoice>,
+    /// The row that `--view depth-intervals` shows, from the top; left out: the middle one
+    #[arg(long, requires = "view")]
+    pub row: Option<u32>,
     /// Print how long each stage took
     #[arg(long)]
     pub time: bool,
@@ -127,6 +133,18 @@ pub enum EngineChoice {
     Fused,
     /// The scene drawn once for each layer, back to front
     Peel,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ViewChoice {
+    /// How many layers each pixel's ray has
+    Layers,
+    /// The region of each visible surface
+    Regions,
+    /// Who acts on each visible surface, in the total order
+    Order,
+    /// Lenses and visible surfaces along one row, by depth
+    DepthIntervals,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

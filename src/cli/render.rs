@@ -2,10 +2,11 @@
 
 use clap::ValueEnum;
 
-use super::args::RenderArgs;
-use super::backend;
+use super::args::{RenderArgs, ViewChoice};
+use super::backend::{self, Backend};
 use super::stages::Stages;
 use crate::InputError;
+use crate::debug_view::{self, DebugView, Row};
 use crate::frame::Frame;
 use crate::output::{write_aov, write_picture, write_whole};
 use crate::plan::Plan;
@@ -16,6 +17,7 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     let mut stages = Stages::default();
     let mut spec = stages.time("spec", || Spec::load(&args.spec))?;
     super::targets::check(args)?;
+    check_row(args, &spec)?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
     spec.image.samples = args.samples.unwrap_or(spec.image.samples);
     let scene = stages.time("scene", || Scene::open(&spec))?;
@@ -25,7 +27,12 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     }
     let (backend, choice) = stages.time("device", || backend::choose(args.backend))?;
     eprintln!("{choice}");
-    let frame = backend.render(&scene, &plan, args.engine, !args.aov.is_empty(), &mut stages)?;
+    let aovs = !args.aov.is_empty() || args.view.is_some();
+    let mut frame = backend.render(&scene, &plan, args.engine, aovs, &mut stages)?;
+    if let Some(view) = args.view {
+        let drawn = draw_view(view, args.row, &backend, &scene, &plan, &frame)?;
+        frame = Frame { aovs: frame.aovs, ..drawn };
+    }
     stages.time("write", || write_all(args, &plan, &frame))?;
     if args.time {
         eprint!("{}", stages.text());
@@ -34,6 +41,42 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
         Some(path) => write_whole(path, stats(args, &plan, &choice, &stages).as_bytes()),
         None => Ok(()),
     }
+}
+
+/// The debug view of a picture.
+fn draw_view(
+    view: ViewChoice,
+    row: Option<u32>,
+    backend: &Backend,
+    scene: &Scene,
+    plan: &Plan,
+    frame: &Frame,
+) -> Result<Frame, InputError> {
+    let aovs = frame.aovs.as_ref().ok_or_else(|| InputError::new("a debug view needs the maps of its picture"))?;
+    let view = match view {
+        ViewChoice::Layers => DebugView::Layers,
+        ViewChoice::Regions => DebugView::Regions,
+        ViewChoice::Order => DebugView::Order,
+        ViewChoice::DepthIntervals => {
+            let y = row.unwrap_or(plan.view.size[1] / 2);
+            let layers = backend.row_layers(scene, plan, y)?;
+            return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
+        }
+    };
+    Ok(debug_view::draw(view, plan, frame, aovs))
+}
+
+fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {
+    let Some(row) = args.row else { return Ok(()) };
+    if args.view != Some(ViewChoice::DepthIntervals) {
+        return Err(InputError::new("`--row` chooses what `--view depth-intervals` shows, and no other view has rows"));
+    }
+    let rows = args.size.unwrap_or(spec.image.size)[1];
+    if row < rows {
+        return Ok(());
+    }
+    Err(InputError::new(format!("the picture has {rows} rows, so there is no row {row}"))
+        .help("rows count from 0 at the top"))
 }
 
 fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<(), InputError> {

@@ -13,7 +13,7 @@ use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
 use crate::lens::RayLayers;
-use crate::pixel::{Fragment, PixelReport, Survivor, Visible};
+use crate::pixel::{Fragment, PixelReport, Survivor};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
 use crate::view::Ray;
@@ -107,24 +107,14 @@ impl<'a> Tracer<'a> {
         scratch
             .fragments
             .sort_unstable_by(|a, b| self.key(a).partial_cmp(&self.key(b)).unwrap_or(std::cmp::Ordering::Equal));
-        let mut fragments = Vec::new();
-        let mut visible: Option<Visible> = None;
+        let mut report = PixelReport { layers: scratch.layers.starts.clone(), ..PixelReport::default() };
         for fragment in &scratch.fragments {
             let Shaded { opacity, coverage, normal, .. } = self.shader.shade(fragment, &pixel);
-            if opacity * coverage <= 0.0 {
-                continue;
-            }
-            fragments.push(Survivor { fragment: *fragment, opacity, coverage });
-            let here = Visible { fragment: *fragment, normal };
-            if coverage >= 0.5 && opacity >= wgsl::OPAQUE_FROM.0 {
-                visible = Some(here);
+            if !report.push(Survivor { fragment: *fragment, opacity, coverage }, normal) {
                 break;
             }
-            if coverage >= 0.5 && visible.is_none() {
-                visible = Some(here);
-            }
         }
-        PixelReport { layers: scratch.layers.starts.clone(), fragments, visible, removed: Vec::new() }
+        report
     }
 
     /// Collects the surviving fragments that may be translucent, in front of the nearest that surely is opaque.

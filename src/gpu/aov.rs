@@ -2,28 +2,39 @@
 
 use super::Window;
 use crate::frame::{Aovs, RegionTable};
-use crate::plan::{LensSet, Region};
+use crate::plan::{LensSet, Plan, Region};
 
 /// Words a pixel ahead of those of its set and its stack; `MAP_WORDS` of the shader.
-const FIXED_WORDS: u32 = 7;
+const FIXED_WORDS: u32 = 8;
 
 /// Bytes that the maps of a window need.
 pub fn bytes(window: &Window, words: u32) -> u64 {
     4 * u64::from(FIXED_WORDS + 2 * words) * window.pixels()
 }
 
-/// Puts a window's share into the maps of a picture of the given width.
-pub fn store(maps: &mut Aovs, table: &mut RegionTable, width: u32, window: &Window, words: u32, bytes: &[u8]) {
+/// Puts a window's share into the maps of a part of the picture.
+pub fn store(
+    maps: &mut Aovs,
+    table: &mut RegionTable,
+    plan: &Plan,
+    part: &Window,
+    window: &Window,
+    words: u32,
+    bytes: &[u8],
+) {
     let stride = (FIXED_WORDS + 2 * words) as usize;
     let values: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
     for (i, pixel) in values.chunks_exact(stride).take(window.pixels() as usize).enumerate() {
         let (x, y) = (i as u32 % window.size[0], i as u32 / window.size[0]);
-        let at = ((window.min[1] + y) * width + window.min[0] + x) as usize;
+        let at = part.place([window.min[0] + x, window.min[1] + y]);
         maps.layers[at] = pixel[0] as u16;
-        if pixel[6] != 0 {
-            maps.nodes[at] = pixel[1];
-            maps.depth[at] = f32::from_bits(pixel[2]);
-            maps.normals[at] = [pixel[3], pixel[4], pixel[5]].map(f32::from_bits);
+        if pixel[1] != 0 {
+            let item = &plan.items[plan.instances[pixel[2] as usize].item];
+            maps.instances[at] = pixel[2];
+            maps.triangles[at] = pixel[3] - item.first_triangle;
+            maps.nodes[at] = item.node as u32 + 1;
+            maps.depth[at] = f32::from_bits(pixel[4]);
+            maps.normals[at] = [pixel[5], pixel[6], pixel[7]].map(f32::from_bits);
             let (set, stack) = pixel[FIXED_WORDS as usize..].split_at(words as usize);
             let [set, stack] = [set, stack].map(LensSet::from_words);
             maps.regions[at] = table.number(Region { set, stack });

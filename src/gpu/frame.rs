@@ -53,6 +53,7 @@ pub struct FrameShape<'a> {
     pub tiles: &'a Tiles,
     pub fragment_capacity: u32,
     pub target_is_srgb: bool,
+    pub list_all: bool,
 }
 
 impl FrameShape<'_> {
@@ -91,7 +92,8 @@ impl FrameShape<'_> {
             target_is_srgb: u32::from(self.target_is_srgb),
             lens_count: plan.lenses.len() as u32,
             rule_count: plan.rules.len() as u32,
-            pad: [0; 2],
+            list_all: u32::from(self.list_all),
+            pad: 0,
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

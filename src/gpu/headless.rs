@@ -21,8 +21,8 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Owns a device; renders and reads back.
 #[derive(Debug)]
 pub struct Headless {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
     store: Arc<PipelineStore>,
     /// What the device reported outside of any call's result.
     reported: Arc<Mutex<Option<String>>>,
@@ -44,7 +44,8 @@ pub struct Timings {
 
 /// A picture in the making.
 struct Picture {
-    size: [u32; 2],
+    /// Of the whole.
+    part: Window,
     pixels: Vec<[u8; 4]>,
     aovs: Option<Aovs>,
     table: RegionTable,
@@ -98,14 +99,26 @@ impl Headless {
         options: RenderOptions,
         timings: &mut Option<Timings>,
     ) -> Result<Frame, Error> {
-        let size = plan.view.size;
+        self.render_part(renderer, scene, plan, Window::whole(&plan.view), options, timings)
+    }
+
+    /// A part of the picture.
+    pub(super) fn render_part(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        plan: &Plan,
+        part: Window,
+        options: RenderOptions,
+        timings: &mut Option<Timings>,
+    ) -> Result<Frame, Error> {
         let mut picture = Picture {
-            size,
-            pixels: vec![[0; 4]; size[0] as usize * size[1] as usize],
-            aovs: options.aovs.then(|| Aovs::empty(size)),
+            part,
+            pixels: vec![[0; 4]; part.pixels() as usize],
+            aovs: options.aovs.then(|| Aovs::empty(part.size)),
             table: RegionTable::default(),
         };
-        let mut windows = vec![Window::whole(&plan.view)];
+        let mut windows = vec![part];
         while let Some(window) = windows.pop() {
             match self.render_window(renderer, scene, plan, window, options, timings, &mut picture) {
                 Err(error) => windows.extend(smaller(&window, error)?),
@@ -115,7 +128,7 @@ impl Headless {
         if let Some(aovs) = &mut picture.aovs {
             aovs.table = picture.table.table;
         }
-        Ok(Frame { size, pixels: picture.pixels, aovs: picture.aovs })
+        Ok(Frame { size: part.size, pixels: picture.pixels, aovs: picture.aovs })
     }
 
     /// The layers of the rays through the pixel centres of a window, row by row, as the device finds them.
@@ -165,7 +178,7 @@ impl Headless {
             if let Some(timings) = timings {
                 timings.prepare += start.elapsed().as_secs_f64();
             }
-            let needed = self.draw(&job, timings, picture)?;
+            let needed = self.draw(plan, &job, timings, picture)?;
             if job.room.holds(needed) {
                 return Ok(());
             }
@@ -177,7 +190,13 @@ impl Headless {
     }
 
     /// Draws a window into the picture and says how much room it needed; where it had less, the picture stays as it is.
-    fn draw(&self, job: &Job, timings: &mut Option<Timings>, picture: &mut Picture) -> Result<Room, Error> {
+    fn draw(
+        &self,
+        plan: &Plan,
+        job: &Job,
+        timings: &mut Option<Timings>,
+        picture: &mut Picture,
+    ) -> Result<Room, Error> {
         let [width, height] = job.window.size;
         let target = self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
@@ -211,7 +230,8 @@ impl Headless {
                 aov::store(
                     aovs,
                     &mut picture.table,
-                    picture.size[0],
+                    plan,
+                    &picture.part,
                     &job.window,
                     job.words,
                     &maps.bytes(&self.device)?,
@@ -225,7 +245,7 @@ impl Headless {
         Ok(needed)
     }
 
-    fn encoder(&self) -> wgpu::CommandEncoder {
+    pub(super) fn encoder(&self) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&Default::default())
     }
 
@@ -235,7 +255,7 @@ impl Headless {
     }
 
     /// Fails when the device has reported something.
-    fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), Error> {
         match self.reported.lock().map(|mut slot| slot.take()) {
             Ok(None) => Ok(()),
             Ok(Some(message)) => Err(Error::Lost(message)),
@@ -284,7 +304,7 @@ impl Picture {
         let row = row_bytes(window.size[0]) as usize;
         let length = window.size[0] as usize;
         for (y, source) in (0u32..).zip(bytes.chunks_exact(row)) {
-            let start = ((window.min[1] + y) * self.size[0] + window.min[0]) as usize;
+            let start = self.part.place([window.min[0], window.min[1] + y]);
             self.pixels[start..start + length].copy_from_slice(bytemuck::cast_slice(&source[..4 * length]));
         }
     }

@@ -60,7 +60,7 @@ fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRec
         normal_y: extended(normals.y_axis),
         normal_z: extended(normals.z_axis),
         material: item.material as u32,
-        node: item.node as u32 + 1,
+        instance: piece.instance as u32,
         first_triangle: piece.key(),
         flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 }
             | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },

@@ -7,12 +7,13 @@ use super::draws::Draw;
 use super::frame::Sample;
 use super::targets::Targets;
 use super::tiles::{DISPATCH_WIDTH, Tiles};
-use super::{Room, Window};
+use super::{Needs, Room, Window};
 use crate::lens::PixelRect;
 
 /// A frame ready to be encoded, stage by stage.
 #[derive(Debug)]
 pub struct Job {
+    pub needs: Needs,
     pub samples: Vec<Sample>,
     pub window: Window,
     /// Counters of the room that each sample needs.
@@ -62,6 +63,14 @@ pub struct Groups {
     pub resolve: wgpu::BindGroup,
     pub maps: Option<wgpu::BindGroup>,
     pub finish: wgpu::BindGroup,
+}
+
+/// Writes all fragments of a window's one pixel into a buffer.
+#[derive(Debug)]
+pub struct ExplainPass {
+    pub pipeline: wgpu::ComputePipeline,
+    pub group: wgpu::BindGroup,
+    pub buffer: wgpu::Buffer,
 }
 
 impl Job {
@@ -126,6 +135,11 @@ impl Job {
         if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
             self.encode_pixels(encoder, sample, pipeline, group);
         }
+    }
+
+    /// Orders, classifies and shades the fragments that a sample has listed.
+    pub fn encode_explain(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, pass: &ExplainPass) {
+        self.encode_pixels(encoder, sample, &pass.pipeline, &pass.group);
     }
 
     fn encode_pixels(

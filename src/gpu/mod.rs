@@ -10,6 +10,7 @@ mod caps;
 mod depth_maps;
 mod draws;
 mod error;
+mod explain;
 mod frame;
 mod headless;
 mod item_data;

@@ -60,6 +60,7 @@ pub struct Pipelines {
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::ComputePipeline>,
     aov: OnceLock<wgpu::ComputePipeline>,
+    explain: OnceLock<wgpu::ComputePipeline>,
     finish: OnceLock<wgpu::RenderPipeline>,
     visibility: OnceLock<wgpu::ShaderModule>,
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
@@ -73,6 +74,7 @@ impl Pipelines {
             layers: OnceLock::new(),
             resolve: OnceLock::new(),
             aov: OnceLock::new(),
+            explain: OnceLock::new(),
             finish: OnceLock::new(),
             visibility: OnceLock::new(),
             draws: Mutex::default(),
@@ -97,6 +99,10 @@ impl Pipelines {
 
     pub fn aov(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
         self.compute(&self.aov, store, Module::Aov, &store.layouts.resolve, "aovs")
+    }
+
+    pub fn explain(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
+        self.compute(&self.explain, store, Module::Explain, &store.layouts.resolve, "explain")
     }
 
     pub fn finish(&self, store: &PipelineStore) -> wgpu::RenderPipeline {

@@ -58,7 +58,9 @@ pub struct FrameRecord {
     pub target_is_srgb: u32,
     pub lens_count: u32,
     pub rule_count: u32,
-    pub pad: [u32; 2],
+    /// Not 0: every fragment is listed, whatever the lenses make of it.
+    pub list_all: u32,
+    pub pad: u32,
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }
@@ -75,8 +77,8 @@ pub struct ItemRecord {
     pub normal_y: [f32; 4],
     pub normal_z: [f32; 4],
     pub material: u32,
-    /// Node index plus one.
-    pub node: u32,
+    /// Into `Plan::instances`.
+    pub instance: u32,
     pub first_triangle: u32,
     pub flags: u32,
     pub first_index: u32,

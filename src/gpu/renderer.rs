@@ -7,7 +7,7 @@ use super::depth_maps::DepthMaps;
 use super::draws::{self, Draw, Piece};
 use super::frame::{self, FrameShape, Sample};
 use super::item_data::ItemData;
-use super::job::{ComputeSteps, Faces, Groups, Job};
+use super::job::{ComputeSteps, ExplainPass, Faces, Groups, Job};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::plan_group::{PlanContents, plan_buffer};
@@ -116,6 +116,38 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
+        self.prepare_frame(device, scene, plan, window, options, false)
+    }
+
+    /// Prepares a frame that lists every fragment at the pixel centres, whatever the lenses make of it, and draws
+    /// nothing.
+    pub(super) fn prepare_listing(
+        &mut self,
+        device: &wgpu::Device,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+    ) -> Result<Job, Error> {
+        let options = RenderOptions { aovs: true, ..RenderOptions::default() };
+        self.prepare_frame(device, scene, plan, window, options, true)
+    }
+
+    /// What orders and shades the fragments of a frame that lists them, with room for so many bytes.
+    pub(super) fn explain_pass(&self, device: &wgpu::Device, job: &Job, bytes: u64) -> Result<ExplainPass, Error> {
+        let buffer = work_buffer(device, self.largest_buffer, "the fragments of a pixel", bytes)?;
+        let group = self.resolve_group(device, &job.targets, buffer.as_entire_binding());
+        Ok(ExplainPass { pipeline: self.store.get(job.needs).explain(&self.store), group, buffer })
+    }
+
+    fn prepare_frame(
+        &mut self,
+        device: &wgpu::Device,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+        options: RenderOptions,
+        list_all: bool,
+    ) -> Result<Job, Error> {
         let needs = Needs::of(plan);
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
@@ -132,6 +164,7 @@ impl Renderer {
             tiles: &tiles,
             fragment_capacity: room.fragments.min(u64::from(u32::MAX)) as u32,
             target_is_srgb: self.store.target.is_srgb(),
+            list_all,
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
         let counters = 4 * COUNTERS * samples.len() as u64;
@@ -152,6 +185,7 @@ impl Renderer {
         let groups = self.groups(device, plan_group, &targets, &needed, maps.as_ref());
         let pipelines = self.store.get(needs);
         Ok(Job {
+            needs,
             samples,
             window,
             needed,
@@ -161,7 +195,7 @@ impl Renderer {
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, &pieces, options.engine, &pipelines),
+            draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, list_all), &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
@@ -185,14 +219,9 @@ impl Renderer {
         plan: &Plan,
         window: &Window,
         pieces: &[Piece],
-        engine: Engine,
+        program: impl Fn(&Draw) -> Program,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
-        let program = |draw: &Draw| match engine {
-            Engine::Fused if draw.plain => Program::Plain,
-            Engine::Fused => Program::Fused,
-            Engine::Peel => Program::Peel,
-        };
         draws::draws(scene, plan, window, pieces)
             .into_iter()
             .map(|draw| {
@@ -248,15 +277,6 @@ impl Renderer {
         let fragments = || targets.fragments.as_entire_binding();
         let counters = || needed.as_entire_binding();
         let accumulated = || targets.accumulated.as_entire_binding();
-        let resolve = |output| {
-            let ids = wgpu::BindingResource::TextureView(&targets.ids);
-            bindings::group(
-                device,
-                "resolve",
-                &self.store.layouts.resolve,
-                &[layers(), heads(), fragments(), ids, output],
-            )
-        };
         Groups {
             scene: self.scene.bind_group.clone(),
             plan,
@@ -267,10 +287,32 @@ impl Renderer {
                 &self.store.layouts.visibility,
                 &[layers(), heads(), fragments(), counters()],
             ),
-            resolve: resolve(accumulated()),
-            maps: maps.map(|maps| resolve(maps.as_entire_binding())),
+            resolve: self.resolve_group(device, targets, accumulated()),
+            maps: maps.map(|maps| self.resolve_group(device, targets, maps.as_entire_binding())),
             finish: bindings::group(device, "finish", &self.store.layouts.finish, &[accumulated()]),
         }
+    }
+
+    /// What a pass over the fragments of each pixel works on, and what it writes.
+    fn resolve_group(
+        &self,
+        device: &wgpu::Device,
+        targets: &Targets,
+        output: wgpu::BindingResource<'_>,
+    ) -> wgpu::BindGroup {
+        let buffers = [&targets.layers, &targets.heads, &targets.fragments].map(wgpu::Buffer::as_entire_binding);
+        let [layers, heads, fragments] = buffers;
+        let ids = wgpu::BindingResource::TextureView(&targets.ids);
+        bindings::group(device, "resolve", &self.store.layouts.resolve, &[layers, heads, fragments, ids, output])
+    }
+}
+
+/// Which fragment function draws each item.
+fn program_of(engine: Engine, list_all: bool) -> impl Fn(&Draw) -> Program {
+    move |draw| match engine {
+        Engine::Fused if draw.plain && !list_all => Program::Plain,
+        Engine::Fused => Program::Fused,
+        Engine::Peel => Program::Peel,
     }
 }
 

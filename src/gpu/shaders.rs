@@ -10,12 +10,20 @@ pub enum Module {
     Visibility,
     Resolve,
     Aov,
+    Explain,
     Finish,
 }
 
 impl Module {
-    pub const ALL: [Module; 6] =
-        [Module::DepthMap, Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Finish];
+    pub const ALL: [Module; 7] = [
+        Module::DepthMap,
+        Module::Layers,
+        Module::Visibility,
+        Module::Resolve,
+        Module::Aov,
+        Module::Explain,
+        Module::Finish,
+    ];
 
     /// How labels and messages call it.
     pub fn name(self) -> &'static str {
@@ -25,6 +33,7 @@ impl Module {
             Module::Visibility => "visibility",
             Module::Resolve => "resolve",
             Module::Aov => "aov",
+            Module::Explain => "explain",
             Module::Finish => "finish",
         }
     }
@@ -36,6 +45,7 @@ impl Module {
             Module::Visibility => &[&[VISIBILITY], VOLUMES, CLASSIFYING],
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
+            Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
             Module::Finish => &[&[FINISH]],
         }
     }
@@ -68,6 +78,7 @@ const GLASS: &str = include_str!("../../shaders/gpu/glass.wgsl");
 const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
+const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");
 const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
 
 /// The whole WGSL of a module.

@@ -20,6 +20,12 @@ impl Window {
         u64::from(self.size[0]) * u64::from(self.size[1])
     }
 
+    /// Where a pixel of the whole picture stands among the window's, row by row.
+    pub fn place(&self, pixel: [u32; 2]) -> usize {
+        let [x, y] = [0, 1].map(|axis| (pixel[axis] - self.min[axis]) as usize);
+        y * self.size[0] as usize + x
+    }
+
     /// Two halves across the longer side, or `None` for a single pixel.
     pub fn halves(&self) -> Option<[Window; 2]> {
         let axis = usize::from(self.size[1] > self.size[0]);

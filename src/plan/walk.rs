@@ -75,6 +75,35 @@ impl Plan {
         verdict
     }
 
+    /// Those of a stack that take an instance away from a point where they act, as [`Verdict::removed_by`] has it; `None`
+    /// where that is not to be told: an instance that lenses move is told of where it is seen, not where it might have
+    /// been, and what no lens shows is not there.
+    pub(crate) fn removers(&self, instance: &Instance, stack: LensSet) -> Option<LensSet> {
+        let item = &self.items[instance.item];
+        let (mut removers, mut shown, mut steps) = (LensSet::EMPTY, false, 0);
+        let mut rest = stack;
+        while let Some(rank) = rest.top() {
+            rest.remove(rank);
+            let is_rule = self.rule_of(rank).is_some();
+            if !is_rule && !shown && item.movers.contains(rank) {
+                if instance.steps.get(steps).is_some_and(|step| step.rank == rank) {
+                    steps += 1;
+                } else if instance.is_moved() {
+                    return None;
+                } else {
+                    removers.insert(rank);
+                }
+            }
+            if !shown && item.shown_by.contains(rank) {
+                shown = true;
+            } else if !shown && item.removed_by.contains(rank) {
+                removers.insert(rank);
+            }
+        }
+        let told = steps == instance.steps.len() && (shown || !item.is_alternate()) && !removers.is_empty();
+        told.then_some(removers)
+    }
+
     /// The lenses that may mean something to an item, of those around a point.
     fn applying(&self, item: &Item, around: LensSet) -> LensSet {
         ((around & self.by_pixel) | item.object) & (item.scope | item.shown_by)

@@ -26,8 +26,22 @@ impl Model {
         }
     }
 
+    /// A node's name, or `node N` where the file gives none.
+    pub fn node_label(&self, node: usize) -> String {
+        or_number(&self.nodes[node].name, "node", node)
+    }
+
+    /// A material's name, or `material N` where the file gives none.
+    pub fn material_label(&self, material: usize) -> String {
+        or_number(&self.materials[material].name, "material", material)
+    }
+
     /// Whether the pattern matches the node's own name or any ancestor's.
     pub fn node_matches(&self, node: usize, pattern: &Pattern) -> bool {
         std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))
     }
+}
+
+fn or_number(name: &str, kind: &str, number: usize) -> String {
+    if name.is_empty() { format!("{kind} {number}") } else { name.to_string() }
 }

@@ -2,16 +2,17 @@
 
 use serde_json::{Value, json};
 
-use crate::call::{call, project};
+use crate::call::{Folder, call, project};
 
 const SPEC: &str = "lens-specs/order/hides-chain.toml";
+const MOVED: &str = "lens-specs/movers/magnify-over-wireframe.toml";
 
 fn explain(more: &[&str]) -> String {
     explain_of(SPEC, more)
 }
 
 fn explain_of(spec: &str, more: &[&str]) -> String {
-    call(&[&["explain", &project(spec)], more].concat()).good()
+    call(&[&["explain", &project(spec), "--backend", "cpu"], more].concat()).good()
 }
 
 /// What is said of a `hides` that the spec declares in this line.
@@ -28,9 +29,13 @@ fn explain_json(more: &[&str]) -> Value {
 #[test]
 fn text_gives_order_regions_and_reasons() {
     let text = explain(&[]);
-    for part in
-        ["order, lowest first", "1. a (line ", "`hides` in line ", "regions that occur: 7", "hidden: b, for c hides it"]
-    {
+    for part in [
+        "order, lowest first",
+        "1. a (line ",
+        "`hides` in line ",
+        "regions that occur: 7; ",
+        "hidden: b, for c hides it",
+    ] {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
@@ -62,6 +67,75 @@ fn graphs_have_every_lens_and_every_edge() {
     assert_eq!(mermaid.matches("hides, line").count(), 2, "{mermaid}");
 }
 
+/// As recorded, but for the folder of the project.
+fn check_snapshot(name: &str, text: &str) {
+    insta::assert_snapshot!(name, text.replace(env!("CARGO_MANIFEST_DIR"), "."));
+}
+
+#[test]
+fn accounts_are_as_recorded() {
+    check_snapshot("order-and-shares", &explain_of("lens-specs/compose.toml", &["--size", "160x90"]));
+    check_snapshot("shares-json", &explain_of("lens-specs/rules/empty-set.toml", &["--format", "json"]));
+    check_snapshot("moved-pixel", &explain_of(MOVED, &["--pixel", "60,40"]));
+    check_snapshot("moved-pixel-json", &explain_of(MOVED, &["--pixel", "60,40", "--format", "json"]));
+    check_snapshot("ruled-pixel", &explain_of("lens-specs/rules/pair.toml", &["--pixel", "48,36"]));
+}
+
+#[test]
+fn graphs_tell_hides_overrides_and_undecided_pairs_apart() {
+    let folder = Folder::new("explain-graph");
+    let model = project("lens-specs/models/cubes.glb");
+    let lens = |name: &str, more: &str| {
+        format!(
+            "[[lens]]\nname = '{name}'\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\nfilters = ['normals']\n{more}\n"
+        )
+    };
+    let lenses = [
+        lens("low-est_1", ""),
+        lens("end", "hides = ['low-est_1']"),
+        lens("top", "overlap = 'override'\npriority = 1"),
+        lens("off", "enabled = false\nover = ['end']"),
+        lens("tie", ""),
+    ];
+    let spec = folder.write("graph.toml", &format!("[scene]\nfile = '{model}'\n{}", lenses.concat()));
+    for format in ["dot", "mermaid"] {
+        check_snapshot(&format!("graph-{format}"), &call(&["explain", &spec, "--format", format]).good());
+    }
+}
+
+#[test]
+fn shares_count_every_pixel_once() {
+    let account = explain_json(&["--size", "40x30"]);
+    assert_eq!(account["view"]["size"], json!([40, 30]));
+    assert_eq!(account["view"]["backend"], "cpu");
+    let pixels = |value: &Value| value["pixels"].as_u64().expect("a number");
+    let regions: u64 = account["regions"].as_array().expect("a list").iter().map(pixels).sum();
+    assert!(regions > 0);
+    assert_eq!(regions + pixels(&account["view"]["plain"]) + pixels(&account["view"]["nothing"]), 40 * 30);
+}
+
+#[test]
+fn a_region_that_the_view_does_not_show_is_listed() {
+    // The lens lies wholly behind the eye.
+    let text = explain_of("lens-specs/camera/lens-behind-eye.toml", &[]);
+    assert!(text.contains("not in view"), "{text}");
+}
+
+#[test]
+fn ids_are_those_of_the_region_map() {
+    let folder = Folder::new("explain-ids");
+    let (picture, map) = (folder.file("picture.png"), format!("region={}", folder.file("region.png")));
+    let spec = project("lens-specs/overlap/three-spheres.toml");
+    call(&["render", &spec, "-o", &picture, "--backend", "cpu", "--samples", "1", "--aov", &map]).good();
+    let json = explain_of("lens-specs/overlap/three-spheres.toml", &["--format", "json"]);
+    let account: Value = serde_json::from_str(&json).expect("JSON");
+    let pairs = |regions: &Value| -> Vec<(u64, Value)> {
+        let regions = regions.as_array().expect("a list").iter();
+        regions.map(|region| (region["id"].as_u64().expect("an id"), region["lenses"].clone())).collect()
+    };
+    assert_eq!(pairs(&account["regions"]), pairs(&folder.json("region.json")));
+}
+
 #[test]
 fn one_pixel_is_explained_in_text_and_json() {
     // Where all three lenses are.
@@ -76,7 +150,7 @@ fn one_pixel_is_explained_in_text_and_json() {
     assert_eq!(pixel["pixel"], json!([46, 36]));
     let fragments = pixel["fragments"].as_array().expect("a list");
     assert_eq!(fragments.len(), 1, "the box is opaque");
-    assert_eq!(fragments[0]["node"], "box");
+    assert_eq!(fragments[0]["node"]["name"], "box");
     assert_eq!(fragments[0]["lenses"], json!(["a", "b", "c"]));
     assert_eq!(fragments[0]["visible"], true);
     assert_eq!(fragments[0]["hidden"], json!([{ "lens": "b", "by": "c", "because": hidden }]));
@@ -103,7 +177,7 @@ fn what_lenses_remove_in_front_of_the_visible_is_named() {
     let json = explain_of("lens-specs/filters/erase.toml", &["--pixel", "48,36", "--format", "json"]);
     let pixel: Value = serde_json::from_str(&json).expect("JSON");
     let removed = pixel["removed"].as_array().expect("a list");
-    let nodes: Vec<&Value> = removed.iter().map(|fragment| &fragment["node"]).collect();
+    let nodes: Vec<&Value> = removed.iter().map(|fragment| &fragment["node"]["name"]).collect();
     assert_eq!(nodes, ["box", "ball"]);
     let depth = |fragment: &Value| fragment["depth"].as_f64().expect("a number");
     let visible = depth(&pixel["fragments"][0]);

@@ -3,6 +3,8 @@
 mod call;
 mod check;
 mod explain;
+mod pick;
 mod render;
 mod texts;
 mod usage;
+mod views;

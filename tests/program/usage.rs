@@ -7,13 +7,16 @@ fn wrong_usage_is_told_from_wrong_input() {
     let folder = Folder::new("usage");
     let (spec, picture) = (project("lens-specs/order/over.toml"), folder.file("picture.png"));
     let render = ["render", &spec, "-o", &picture];
-    let wrong: [&[&str]; 12] = [
+    let wrong: [&[&str]; 15] = [
         &[],
         &["paint"],
         &["render", &spec],
         &["check"],
         &["explain", &spec, "--format", "xml"],
         &["explain", &spec, "--pixel", "1;2"],
+        &["pick", &spec],
+        &["pick", &spec, "1", "2"],
+        &[&render[..], &["--view", "lenses"]].concat(),
         &[&render[..], &["--size", "0x10"]].concat(),
         &[&render[..], &["--size", "10"]].concat(),
         &[&render[..], &["--samples", "3"]].concat(),
@@ -32,7 +35,7 @@ fn wrong_usage_is_told_from_wrong_input() {
 #[test]
 fn help_and_version_are_no_mistakes() {
     let help = call(&["help"]).good();
-    for command in ["render", "check", "explain", "info", "init", "filters", "schema"] {
+    for command in ["render", "check", "explain", "pick", "info", "init", "filters", "schema"] {
         assert!(help.contains(command), "{command}: {help}");
     }
     assert!(call(&["--version"]).good().starts_with("lenspeel "));

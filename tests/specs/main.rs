@@ -7,6 +7,7 @@ mod art;
 mod controls;
 mod entry;
 mod golden;
+mod pick;
 mod reference;
 mod snapshot;
 
@@ -42,6 +43,11 @@ fn trials_of(entry: Arc<Entry>) -> Vec<Trial> {
     if entry.kind == Kind::Property {
         trials.push(trial(&entry, "golden", golden::check));
     }
+    if pick::SPECS.contains(&entry.name.as_str()) {
+        trials.push(trial(&entry, "pick", pick::on_cpu));
+        #[cfg(feature = "gpu")]
+        trials.extend([trial(&entry, "pick-gpu", pick::on_gpu), trial(&entry, "report-gpu", pick::reports_agree)]);
+    }
     #[cfg(feature = "gpu")]
     trials.extend(gpu::ENGINES.map(|(engine, name)| {
         trial(&entry, name, move |entry| {
@@ -61,7 +67,9 @@ fn trial(entry: &Arc<Entry>, what: &str, check: impl Fn(&Entry) -> Result<(), St
 #[cfg(feature = "gpu")]
 fn ignore_without_adapter(trials: &mut Vec<Trial>) {
     if gpu::is_ignored() {
-        let needs_gpu = |name: &str| gpu::ENGINES.iter().any(|(_, engine)| name.ends_with(&format!("::{engine}")));
+        let needs_gpu = |name: &str| {
+            name.ends_with("-gpu") || gpu::ENGINES.iter().any(|(_, engine)| name.ends_with(&format!("::{engine}")))
+        };
         *trials = trials.drain(..).map(|t| if needs_gpu(t.name()) { t.with_ignored_flag(true) } else { t }).collect();
     }
 }

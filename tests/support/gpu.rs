@@ -5,7 +5,7 @@
 use std::sync::{Mutex, OnceLock};
 
 use lenspeel::frame::Frame;
-use lenspeel::gpu::{Engine, Headless, RenderOptions, choose_named};
+use lenspeel::gpu::{Engine, Headless, RenderOptions, Renderer, choose_named};
 
 use crate::open::Opened;
 
@@ -23,6 +23,17 @@ pub fn render(opened: &Opened, engine: Engine) -> Result<Frame, String> {
     let device = device()?.lock().map_err(|_| "a test that held the device has panicked")?;
     let options = RenderOptions { engine, aovs: true };
     device.render(&opened.scene, &opened.plan, options).map_err(|error| error.to_string())
+}
+
+/// What some work with the device and a renderer of a scene gives.
+#[allow(dead_code, reason = "not every test that shares this file asks for single pixels")]
+pub fn with_renderer<T>(
+    opened: &Opened,
+    work: impl FnOnce(&Headless, &mut Renderer) -> Result<T, String>,
+) -> Result<T, String> {
+    let device = device()?.lock().map_err(|_| "a test that held the device has panicked")?;
+    let mut renderer = device.renderer(&opened.scene).map_err(|error| error.to_string())?;
+    work(&device, &mut renderer)
 }
 
 fn device() -> Result<&'static Mutex<Headless>, String> {
