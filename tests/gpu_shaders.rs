@@ -3,39 +3,41 @@
 
 use std::mem::{offset_of, size_of};
 
-use lenspeel::gpu::layout::{FrameRecord, ItemRecord, LensRecord, PartRecord, TextureInfo};
-use lenspeel::gpu::{Module, SetWords, source};
+use lenspeel::gpu::layout::{FrameRecord, ItemRecord, LensRecord, PartRecord, StepRecord, TextureInfo};
+use lenspeel::gpu::{Module, Needs, source};
 use lenspeel::plan::{GlassRecord, LightRecord, Op};
 use lenspeel::scene::{MaterialRecord, TextureSlot};
 use naga::{Handle, ShaderStage, Type, TypeInner};
 
-/// From one lens of one part to the most lenses that there can be.
-const WORDS: [SetWords; 3] = [ONE, SetWords { lenses: 2, parts: 1 }, SetWords { lenses: 8, parts: 3 }];
-const ONE: SetWords = SetWords { lenses: 1, parts: 1 };
+/// A plan that needs little, one of two words, and the most that there can be.
+const NEEDS: [Needs; 3] = [LITTLE, TWO_WORDS, MOST];
+const LITTLE: Needs = Needs { set_words: 1, part_words: 1, compounds: false, movers: false, soft: false };
+const TWO_WORDS: Needs = Needs { set_words: 2, ..LITTLE };
+const MOST: Needs = Needs { set_words: 12, part_words: 3, compounds: true, movers: true, soft: true };
 /// Twin of the limit that `caps.rs` asks for.
-const STORAGE_BUFFERS: usize = 17;
+const STORAGE_BUFFERS: usize = 18;
 
-fn parsed(module: Module, words: SetWords) -> naga::Module {
-    let text = source(module, words);
+fn parsed(module: Module, needs: Needs) -> naga::Module {
+    let text = source(module, &needs);
     naga::front::wgsl::parse_str(&text)
-        .unwrap_or_else(|e| panic!("{} with {words:?}: {}", module.name(), e.emit_to_string(&text)))
+        .unwrap_or_else(|e| panic!("{} with {needs:?}: {}", module.name(), e.emit_to_string(&text)))
 }
 
-fn validated(module: Module, words: SetWords) -> (naga::Module, naga::valid::ModuleInfo) {
-    let parsed = parsed(module, words);
+fn validated(module: Module, needs: Needs) -> (naga::Module, naga::valid::ModuleInfo) {
+    let parsed = parsed(module, needs);
     let mut validator =
         naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::PRIMITIVE_INDEX);
     let info = validator
         .validate(&parsed)
-        .unwrap_or_else(|e| panic!("{}: {}", module.name(), e.emit_to_string(&source(module, words))));
+        .unwrap_or_else(|e| panic!("{}: {}", module.name(), e.emit_to_string(&source(module, &needs))));
     (parsed, info)
 }
 
 #[test]
-fn every_module_is_valid_for_every_size_of_sets() {
+fn every_module_is_valid_for_every_plan() {
     for module in Module::ALL {
-        for words in WORDS {
-            assert!(!validated(module, words).0.entry_points.is_empty());
+        for needs in NEEDS {
+            assert!(!validated(module, needs).0.entry_points.is_empty());
         }
     }
 }
@@ -51,7 +53,7 @@ fn samples_textures(module: &naga::Module) -> bool {
 #[test]
 fn no_module_samples_textures_or_takes_derivatives() {
     for module in Module::ALL {
-        assert!(!samples_textures(&parsed(module, ONE)), "{} must use textureLoad", module.name());
+        assert!(!samples_textures(&parsed(module, MOST)), "{} must use textureLoad", module.name());
     }
 }
 
@@ -76,7 +78,7 @@ fn position_is_invariant(module: &naga::Module, entry: &naga::EntryPoint) -> boo
 
 #[test]
 fn the_scene_is_drawn_at_invariant_positions() {
-    let module = parsed(Module::Visibility, ONE);
+    let module = parsed(Module::Visibility, MOST);
     let vertex: Vec<_> = module.entry_points.iter().filter(|e| e.stage == ShaderStage::Vertex).collect();
     assert_eq!(vertex.len(), 1, "all pipelines share one vertex function");
     assert!(position_is_invariant(&module, vertex[0]));
@@ -85,7 +87,7 @@ fn the_scene_is_drawn_at_invariant_positions() {
 #[test]
 fn no_stage_binds_more_storage_buffers_than_are_asked_for() {
     for module in Module::ALL {
-        let (module_ir, info) = validated(module, ONE);
+        let (module_ir, info) = validated(module, MOST);
         for (index, entry) in module_ir.entry_points.iter().enumerate() {
             let used = module_ir
                 .global_variables
@@ -121,7 +123,7 @@ macro_rules! same_layout {
 
 #[test]
 fn records_have_the_same_layout_in_rust_and_in_wgsl() {
-    let module = parsed(Module::Resolve, SetWords { lenses: 2, parts: 1 });
+    let module = parsed(Module::Resolve, TWO_WORDS);
     let size = |name| wgsl_layout(&module, name).1 as usize;
     same_layout!(
         &module,
@@ -153,6 +155,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             fragment_capacity,
             active_tiles,
             target_is_srgb,
+            lens_count,
+            rule_count,
             by_pixel,
             translucent
         ]
@@ -180,16 +184,21 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             colors,
             uv0,
             uv1,
-            slots
+            slots,
+            center,
+            first_step,
+            step_count
         ]
     );
-    // Four masks of two words each follow.
-    assert_eq!(size("Item"), size_of::<ItemRecord>() + 4 * 2 * 4);
+    // Five masks of two words each follow, then padding to 16 bytes.
+    assert_eq!(size("Item"), (size_of::<ItemRecord>() + 5 * 2 * 4).next_multiple_of(16));
+    same_layout!(&module, "Step", StepRecord, [row_x, row_y, row_z, rank]);
+    assert_eq!(size("Step"), size_of::<StepRecord>());
     same_layout!(
         &module,
         "Lens",
         LensRecord,
-        [glass, flags, first_part, part_count, first_token, token_count, first_op, op_count]
+        [glass, flags, first_part, part_count, first_token, token_count, first_op, op_count, soft]
     );
     // One set of two words follows, then padding to 16 bytes.
     assert_eq!(size("Lens"), (size_of::<LensRecord>() + 2 * 4).next_multiple_of(16));
@@ -205,6 +214,9 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             normal_x,
             normal_y,
             normal_z,
+            local_x,
+            local_y,
+            local_z,
             lens,
             form,
             flags,
@@ -233,7 +245,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
 
 #[test]
 fn records_of_the_plan_and_the_scene_have_the_same_layout_in_wgsl() {
-    let module = parsed(Module::Resolve, ONE);
+    let module = parsed(Module::Resolve, LITTLE);
     let size = |name| wgsl_layout(&module, name).1 as usize;
     same_layout!(&module, "Op", Op, [kind, texture, flags, a, b, c]);
     assert_eq!(size("Op"), size_of::<Op>());

@@ -24,7 +24,7 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
             break;
         }
         last = pick;
-        let fragment = classified(pick, tile, pixel);
+        let fragment = classified(pick, tile, pixel, ray);
         let shaded = shade(fragment, ray);
         if shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
             continue;

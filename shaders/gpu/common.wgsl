@@ -1,6 +1,7 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
 // Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, and
-// `PART_WORDS`, that of a set of one lens's parts.
+// `PART_WORDS`, that of a set of one lens's parts; whether some lens has several parts or a mesh (`COMPOUNDS`), moves
+// content (`MOVERS`) or is soft (`SOFT`).
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
@@ -54,6 +55,11 @@ struct Frame {
     active_tiles: u32,
     // Not 0: the target encodes sRGB itself.
     target_is_srgb: u32,
+    // Overlap rules stand behind the lenses.
+    lens_count: u32,
+    rule_count: u32,
+    pad_a: u32,
+    pad_b: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,
@@ -66,10 +72,11 @@ const MASK_SCOPE: u32 = 0u;
 const MASK_OBJECT: u32 = 1u;
 const MASK_SHOWN_BY: u32 = 2u;
 const MASK_REMOVED_BY: u32 = 3u;
+const MASK_MOVERS: u32 = 4u;
 
-// An item or a chunk of its triangles: twin of `records::ItemRecord`, and the item's masks.
+// A way in which an item is shown, or a chunk of its triangles: twin of `records::ItemRecord`, and the item's masks.
 struct Item {
-    // Rows of the map from local space.
+    // Rows of the map from local space to where it is shown.
     row_x: vec4f,
     row_y: vec4f,
     row_z: vec4f,
@@ -92,7 +99,12 @@ struct Item {
     uv1: u32,
     // Bit i: its material has a texture in slot i.
     slots: u32,
-    masks: array<u32, 4u * WORDS>,
+    // The centre of its node where it is in place.
+    center: vec3f,
+    // How its rays are moved, in `steps`.
+    first_step: u32,
+    step_count: u32,
+    masks: array<u32, 5u * WORDS>,
 }
 
 const FORM_EMPTY: u32 = 0u;
@@ -102,20 +114,35 @@ const FORM_CAPSULE: u32 = 3u;
 const FORM_HALF_SPACES: u32 = 4u;
 const FORM_MESH: u32 = 5u;
 
-const LENS_GLASS: u32 = 1u;
+// A lens that moves content, on the way down from a shown point: twin of `records::StepRecord`.
+struct Step {
+    // Rows of the map from the shown point to where the lenses below are asked.
+    row_x: vec4f,
+    row_y: vec4f,
+    row_z: vec4f,
+    rank: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
+}
 
-// Twin of `records::LensRecord`, and the lens's mask.
+const LENS_GLASS: u32 = 1u;
+const LENS_BY_OBJECT: u32 = 2u;
+
+// A lens or an overlap rule: twin of `records::LensRecord`, and the lens's mask.
 struct Lens {
     glass: Glass,
     flags: u32,
-    // Its parts in `parts`.
+    // Its parts in `parts`; of a rule the sets of its names in `lens_words`.
     first_part: u32,
     part_count: u32,
-    // Its program in `lens_words`; none where it is one convex part.
+    // Its program in `lens_words`; none where a lens is one convex part.
     first_token: u32,
     token_count: u32,
     first_op: u32,
     op_count: u32,
+    // Width over which it fades in from the boundary; 0: a sharp one.
+    soft: f32,
     hides: array<u32, WORDS>,
 }
 
@@ -135,11 +162,16 @@ struct Part {
     normal_x: vec4f,
     normal_y: vec4f,
     normal_z: vec4f,
+    // Rows of the map from the space around the eye.
+    local_x: vec4f,
+    local_y: vec4f,
+    local_z: vec4f,
     // Rank of its lens.
     lens: u32,
     form: u32,
     flags: u32,
-    // Two vectors a plane in `lens_data`: the coefficients along rays and the normal. The first `hidden` are not seen.
+    // Two vectors a plane in `lens_data`: the coefficients along pixels' rays, and the normal with
+    // the offset. The first `hidden` are not seen.
     first_plane: u32,
     plane_count: u32,
     hidden: u32,
@@ -178,8 +210,6 @@ const SLOT_METALLIC_ROUGHNESS: u32 = 1u;
 const SLOT_NORMAL: u32 = 2u;
 const SLOT_OCCLUSION: u32 = 3u;
 const SLOT_EMISSIVE: u32 = 4u;
-// Not a material's: the texture of a filter.
-const SLOT_FILTER: u32 = 5u;
 
 // Twin of `scene::MaterialRecord`.
 struct Material {
@@ -224,15 +254,16 @@ struct TextureInfo {
 // The plan: one frame.
 @group(1) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(1) var<storage, read> items: array<Item>;
-@group(1) @binding(2) var<storage, read> lenses: array<Lens>;
-@group(1) @binding(3) var<storage, read> parts: array<Part>;
-@group(1) @binding(4) var<storage, read> lens_data: array<vec4f>;
+@group(1) @binding(2) var<storage, read> steps: array<Step>;
+@group(1) @binding(3) var<storage, read> lenses: array<Lens>;
+@group(1) @binding(4) var<storage, read> parts: array<Part>;
+@group(1) @binding(5) var<storage, read> lens_data: array<vec4f>;
 // Programs and meshes of lenses.
-@group(1) @binding(5) var<storage, read> lens_words: array<u32>;
-@group(1) @binding(6) var<storage, read> ops: array<Op>;
-@group(1) @binding(7) var<storage, read> lights: array<Light>;
+@group(1) @binding(6) var<storage, read> lens_words: array<u32>;
+@group(1) @binding(7) var<storage, read> ops: array<Op>;
+@group(1) @binding(8) var<storage, read> lights: array<Light>;
 // Four words a tile (see `TileRecord`), then the tiles that lenses touch, then their lists of parts.
-@group(1) @binding(8) var<storage, read> tiles: array<u32>;
+@group(1) @binding(9) var<storage, read> tiles: array<u32>;
 
 struct TileRecord {
     // Where the layers of its first pixel are, and how many words each pixel has there.

@@ -23,7 +23,7 @@ fn face_fragment(in: FaceVarying) -> @location(0) vec2u {
     let low = parts[in.part].map_min;
     let size = parts[in.part].map_size;
     if all(pixel >= low) && all(pixel < low + size) {
-        let rate = plane_crossing(in.part, in.face, sample_point(pixel)).rate;
+        let rate = plane_crossing(in.part, in.face, lens_ray(sample_point(pixel))).rate;
         let cell = parts[in.part].map_first + 2u * ((pixel.y - low.y) * size.x + pixel.x - low.x);
         // At an edge two faces may meet in one pixel; the choice must not depend on who comes first.
         if rate < 0.0 {

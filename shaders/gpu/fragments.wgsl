@@ -59,7 +59,7 @@ fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
     return nothing();
 }
 
-fn classified(pick: Pick, tile: TileRecord, pixel: vec2u) -> Fragment {
-    let verdict = walk(pick.item, set_at(tile, pixel, pick.depth));
+fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {
+    let verdict = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth));
     return Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack);
 }

@@ -21,7 +21,7 @@ fn is_glass_before(a: GlassHit, b: GlassHit) -> bool {
 
 // The next lens surface behind `after` that the eye can see.
 fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
-    let at = sample_point(pixel);
+    let ray = lens_ray(sample_point(pixel));
     var best = no_glass(FAR_AWAY, NONE);
     var compounds = false;
     for (var i = 0u; i < tile.part_count; i += 1u) {
@@ -34,7 +34,7 @@ fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
             compounds = true;
             continue;
         }
-        let span = part_span(part, at);
+        let span = part_span(part, ray);
         for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
             let hit = GlassHit(select(span.exit, span.entry, side == 0u), 2u * rank + side, true, part, span, side == 1u);
             let within = hit.depth > frame.near && hit.depth < frame.far;
@@ -43,7 +43,7 @@ fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
             }
         }
     }
-    if compounds {
+    if COMPOUNDS && compounds {
         best = next_compound_glass(tile, pixel, after, best);
     }
     return best;
@@ -75,7 +75,7 @@ fn next_compound_glass(tile: TileRecord, pixel: vec2u, after: GlassHit, best: Gl
                 if (lenses[rank].flags & LENS_GLASS) == 0u || lenses[rank].token_count == 0u || !is_next {
                     continue;
                 }
-                let hit = compound_glass(rank, key, sample_point(pixel), depth);
+                let hit = compound_glass(rank, key, lens_ray(sample_point(pixel)), depth);
                 if hit.found && is_seen(hit) {
                     return hit;
                 }
@@ -94,16 +94,16 @@ fn glass_face(hit: GlassHit) -> u32 {
     return select(hit.span.entry_face, hit.span.exit_face, hit.is_exit);
 }
 
-fn span_around(part: u32, at: vec2f, depth: f32) -> Span {
+fn span_around(part: u32, ray: LensRay, depth: f32) -> Span {
     if parts[part].form == FORM_MESH {
-        return mesh_span(part, at, depth);
+        return mesh_span(part, ray, depth);
     }
-    return part_span(part, at);
+    return part_span(part, ray);
 }
 
 // The surface of a lens where it begins or ends at `depth`: of the first part whose crossing there makes a difference.
 // Goes from crossing to crossing, at one depth in the order of the parts, until the lens has changed.
-fn compound_glass(rank: u32, key: u32, at: vec2f, depth: f32) -> GlassHit {
+fn compound_glass(rank: u32, key: u32, ray: LensRay, depth: f32) -> GlassHit {
     let merge = MERGE * abs(depth);
     // Rounding may differ between passes; another lens may have drawn the boundary nearer by one merge, and another part
     // of this one by one more.
@@ -118,7 +118,7 @@ fn compound_glass(rank: u32, key: u32, at: vec2f, depth: f32) -> GlassHit {
         var next_number = NONE;
         for (var i = 0u; i < lenses[rank].part_count; i += 1u) {
             let part = lenses[rank].first_part + i;
-            let span = span_around(part, at, depth);
+            let span = span_around(part, ray, depth);
             for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
                 let t = select(span.entry, span.exit, side == 1u);
                 if t < reached || (t == reached && i <= number) {
@@ -129,7 +129,7 @@ fn compound_glass(rank: u32, key: u32, at: vec2f, depth: f32) -> GlassHit {
                 }
             }
         }
-        if is_inside_lens(rank) == (key % 2u == 0u) || !next.found {
+        if program_holds(rank) == (key % 2u == 0u) || !next.found {
             break;
         }
         reached = next.depth;
@@ -141,7 +141,7 @@ fn compound_glass(rank: u32, key: u32, at: vec2f, depth: f32) -> GlassHit {
 }
 
 // Its colour, with its opacity in alpha.
-fn glass_color(hit: GlassHit, at: vec2f, ray: PixelRay) -> vec4f {
+fn glass_color(hit: GlassHit, at: LensRay, ray: PixelRay) -> vec4f {
     let normal = surface_normal(hit.part, at, hit.depth, glass_face(hit));
     let facing = abs(dot(normal, normalize(ray.direction)));
     let glass = lenses[hit.key / 2u].glass;
@@ -149,7 +149,7 @@ fn glass_color(hit: GlassHit, at: vec2f, ray: PixelRay) -> vec4f {
 }
 
 // Outward unit normal where the pixel's ray crosses the surface.
-fn surface_normal(part: u32, at: vec2f, depth: f32, face: u32) -> vec3f {
+fn surface_normal(part: u32, at: LensRay, depth: f32, face: u32) -> vec3f {
     if parts[part].form == FORM_HALF_SPACES {
         return lens_data[parts[part].first_plane + 2u * face + 1u].xyz;
     }
@@ -167,8 +167,7 @@ fn surface_normal(part: u32, at: vec2f, depth: f32, face: u32) -> vec3f {
     } else if parts[part].form == FORM_CAPSULE {
         n = p - vec3f(0.0, 0.0, clamp(p.z, 0.0, parts[part].length));
     }
-    let turned = parts[part].normal_x.xyz * n.x + parts[part].normal_y.xyz * n.y + parts[part].normal_z.xyz * n.z;
-    return normalize_or(turned, vec3f(0.0));
+    return normalize_or(turned_normal(part, n), vec3f(0.0));
 }
 
 fn is_smooth_join(part: u32, a: u32, b: u32) -> bool {
@@ -186,7 +185,7 @@ fn is_smooth_join(part: u32, a: u32, b: u32) -> bool {
 }
 
 // Pixels from the lens's outline in the picture.
-fn glass_silhouette(part: u32, at: vec2f, span: Span, ray: PixelRay) -> f32 {
+fn glass_silhouette(part: u32, at: LensRay, span: Span, ray: PixelRay) -> f32 {
     if (parts[part].flags & PART_FLAT) != 0u {
         let first = parts[part].first_corner;
         let count = parts[part].corner_count;

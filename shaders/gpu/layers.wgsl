@@ -53,9 +53,9 @@ fn flip(around: ptr<function, Set>, rank: u32) {
 }
 
 // The boundaries of a lens that is one convex part.
-fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, part: u32, point: vec2f) {
+fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, part: u32, ray: LensRay) {
     let rank = parts[part].lens;
-    let span = part_span(part, point);
+    let span = part_span(part, ray);
     let entry = max(span.entry, frame.near);
     let exit = min(span.exit, frame.far);
     if !span.hit || entry >= exit {
@@ -80,16 +80,16 @@ fn put_crossing(g: ptr<function, Gathering>, number: u32, depth: f32) {
     }
 }
 
-fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, point: vec2f) {
+fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, ray: LensRay) {
     if parts[part].form != FORM_MESH {
-        let span = part_span(part, point);
+        let span = part_span(part, ray);
         if span.hit {
             put_crossing(g, number, span.entry);
             put_crossing(g, number, span.exit);
         }
         return;
     }
-    let line = mesh_line(part, point);
+    let line = mesh_line(part, ray);
     var crossing = before_mesh();
     var count = 0u;
     loop {
@@ -110,7 +110,7 @@ fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, point: vec2f) {
 
 // The boundaries of a lens of several parts or a mesh, whose parts on the tile are those from `entry` on; returns how
 // many those are. Only where the lens as a whole begins or ends is its boundary.
-fn put_compound(g: ptr<function, Gathering>, around: ptr<function, Set>, tile: TileRecord, entry: u32, point: vec2f) -> u32 {
+fn put_compound(g: ptr<function, Gathering>, around: ptr<function, Set>, tile: TileRecord, entry: u32, ray: LensRay) -> u32 {
     let rank = parts[tiles[tile.first_part + entry]].lens;
     inside_parts = array<u32, PART_WORDS>();
     // Crossings of parts stand behind the boundaries gathered so far.
@@ -121,10 +121,10 @@ fn put_compound(g: ptr<function, Gathering>, around: ptr<function, Set>, tile: T
         if parts[part].lens != rank {
             break;
         }
-        put_part(&own, part, part - lenses[rank].first_part, point);
+        put_part(&own, part, part - lenses[rank].first_part, ray);
         end += 1u;
     }
-    var held = is_inside_lens(rank);
+    var held = program_holds(rank);
     if held {
         flip(around, rank);
     }
@@ -137,7 +137,7 @@ fn put_compound(g: ptr<function, Gathering>, around: ptr<function, Set>, tile: T
             cross_part(layers[slot_at(own.at, next) + 1u]);
             next += 1u;
         }
-        let holds = is_inside_lens(rank);
+        let holds = program_holds(rank);
         if holds != held {
             put_boundary(g, depth, rank);
             held = holds;
@@ -160,17 +160,17 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
     if any(pixel >= frame.window_size) {
         return;
     }
-    let point = sample_point(pixel);
+    let ray = lens_ray(sample_point(pixel));
     var around = Set();
     var found = Gathering(layers_at(tile, pixel), 0u, 0u);
     var entry = 0u;
     while entry < tile.part_count {
         let part = tiles[tile.first_part + entry];
-        if lenses[parts[part].lens].token_count == 0u {
-            put_simple(&found, &around, part, point);
+        if !COMPOUNDS || lenses[parts[part].lens].token_count == 0u {
+            put_simple(&found, &around, part, ray);
             entry += 1u;
         } else {
-            entry += put_compound(&found, &around, tile, entry, point);
+            entry += put_compound(&found, &around, tile, entry, ray);
         }
     }
     layers[found.at] = put_layers(found, &around);

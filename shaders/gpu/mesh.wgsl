@@ -1,4 +1,4 @@
-// Where a pixel's ray crosses a closed mesh: every crossing once, also at the edges and corners that triangles share.
+// Where a ray crosses a closed mesh: every crossing once, also at the edges and corners that triangles share.
 //
 // The mesh is seen along the ray, after Woop, Benthin and Wald (2013), "Watertight Ray/Triangle Intersection": a corner
 // becomes one point of the plane across the ray, and an edge one number, whichever triangle asks.
@@ -28,8 +28,11 @@ struct MeshCrossing {
     found: bool,
 }
 
-fn mesh_line(part: u32, at: vec2f) -> MeshLine {
-    let ray = local_ray(part, at);
+fn mesh_line(part: u32, lens_ray: LensRay) -> MeshLine {
+    return line_along(local_ray(part, lens_ray));
+}
+
+fn line_along(ray: LocalRay) -> MeshLine {
     let start = anchored(ray, vec3f(0.0));
     let d = abs(ray.direction);
     let least = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), d.y <= d.z), vec3f(1.0, 0.0, 0.0), d.x <= min(d.y, d.z));
@@ -131,19 +134,91 @@ fn is_left(tail: SeenCorner, head: SeenCorner, area: f32) -> bool {
     return step.x > 0.0 || (step.x == 0.0 && tail.index < head.index);
 }
 
-// Normal of a triangle in the mesh's own space, of any length.
-fn triangle_normal(part: u32, triangle: u32) -> vec3f {
+// Runs along no symmetry that a mesh is likely to have.
+const ANYWHERE: vec3f = vec3f(0.527348, 0.331907, 0.782154);
+
+// Whether a point of the mesh's own space is inside: a line from it crosses the surface an odd number of times.
+fn is_in_mesh(part: u32, p: vec3f) -> bool {
+    let line = line_along(LocalRay(p, ANYWHERE));
+    var crossing = before_mesh();
+    var inside = false;
+    loop {
+        crossing = next_in_mesh(part, line, crossing);
+        if !crossing.found {
+            break;
+        }
+        inside = inside != (crossing.t > 0.0);
+    }
+    return inside;
+}
+
+// The point of the surface nearest to a point of the mesh's own space.
+fn nearest_in_mesh(part: u32, p: vec3f) -> vec3f {
+    var best = p;
+    var least = FAR_AWAY;
+    var node = 0u;
+    while node < parts[part].node_count {
+        let at = parts[part].first_node + node * NODE_WORDS;
+        let first = lens_words[at + 3u];
+        let count = lens_words[at + 7u];
+        let away = p - clamp(p, lens_vector(at), lens_vector(at + 4u));
+        if dot(away, away) >= least {
+            node = select(node + 1u, first, count == 0u);
+            continue;
+        }
+        for (var triangle = first; triangle < first + count; triangle += 1u) {
+            let q = nearest_on_triangle(p, mesh_triangle(part, triangle));
+            if dot(q - p, q - p) < least {
+                least = dot(q - p, q - p);
+                best = q;
+            }
+        }
+        node += 1u;
+    }
+    return best;
+}
+
+fn mesh_triangle(part: u32, triangle: u32) -> array<vec3f, 3> {
     let at = parts[part].first_triangle + 3u * triangle;
     let first = parts[part].first_vertex;
-    let a = lens_vector(first + 3u * lens_words[at]);
-    let b = lens_vector(first + 3u * lens_words[at + 1u]);
-    let c = lens_vector(first + 3u * lens_words[at + 2u]);
-    return cross(b - a, c - a);
+    return array<vec3f, 3>(
+        lens_vector(first + 3u * lens_words[at]),
+        lens_vector(first + 3u * lens_words[at + 1u]),
+        lens_vector(first + 3u * lens_words[at + 2u]),
+    );
+}
+
+// On a side, or within all of them on the plane.
+fn nearest_on_triangle(p: vec3f, corners: array<vec3f, 3>) -> vec3f {
+    var t = corners;
+    let normal = cross(t[1] - t[0], t[2] - t[0]);
+    var best = t[0];
+    var is_within = dot(normal, normal) > 0.0;
+    for (var i = 0u; i < 3u; i += 1u) {
+        let a = t[i];
+        let side = t[(i + 1u) % 3u] - a;
+        let share = clamp(dot(p - a, side) / max(dot(side, side), 1e-30), 0.0, 1.0);
+        let q = a + side * share;
+        if dot(q - p, q - p) < dot(best - p, best - p) {
+            best = q;
+        }
+        is_within = is_within && dot(cross(side, p - a), normal) >= 0.0;
+    }
+    if is_within {
+        return p - normal * (dot(p - t[0], normal) / dot(normal, normal));
+    }
+    return best;
+}
+
+// Normal of a triangle in the mesh's own space, of any length.
+fn triangle_normal(part: u32, triangle: u32) -> vec3f {
+    let t = mesh_triangle(part, triangle);
+    return cross(t[1] - t[0], t[2] - t[0]);
 }
 
 // What the ray has inside the mesh around a boundary at `depth`.
-fn mesh_span(part: u32, at: vec2f, depth: f32) -> Span {
-    let line = mesh_line(part, at);
+fn mesh_span(part: u32, ray: LensRay, depth: f32) -> Span {
+    let line = mesh_line(part, ray);
     var entry = before_mesh();
     var last = entry;
     var is_exit = true;

@@ -1,4 +1,4 @@
-// Where a pixel's ray enters and leaves a part of a lens: closed forms in the part's own space, in f32.
+// Where a ray enters and leaves a part of a lens: closed forms in the part's own space, in f32.
 
 struct Span {
     entry: f32,
@@ -26,12 +26,29 @@ struct Anchored {
     shift: f32,
 }
 
-fn local_ray(part: u32, at: vec2f) -> LocalRay {
-    let moving = parts[part].ray_base.xyz + parts[part].ray_dx.xyz * at.x + parts[part].ray_dy.xyz * at.y;
+fn local_point(part: u32, p: vec3f) -> vec3f {
+    let q = vec4f(p, 1.0);
+    return vec3f(dot(parts[part].local_x, q), dot(parts[part].local_y, q), dot(parts[part].local_z, q));
+}
+
+fn local_vector(part: u32, v: vec3f) -> vec3f {
+    return vec3f(dot(parts[part].local_x.xyz, v), dot(parts[part].local_y.xyz, v), dot(parts[part].local_z.xyz, v));
+}
+
+fn local_ray(part: u32, ray: LensRay) -> LocalRay {
+    if MOVERS && ray.is_moved {
+        return LocalRay(local_point(part, ray.origin), local_vector(part, ray.direction));
+    }
+    let moving = parts[part].ray_base.xyz + parts[part].ray_dx.xyz * ray.at.x + parts[part].ray_dy.xyz * ray.at.y;
     if frame.perspective != 0u {
         return LocalRay(parts[part].ray_fixed.xyz, moving);
     }
     return LocalRay(moving, parts[part].ray_fixed.xyz);
+}
+
+// A gradient over the part's own space as one over the world.
+fn turned_normal(part: u32, n: vec3f) -> vec3f {
+    return parts[part].normal_x.xyz * n.x + parts[part].normal_y.xyz * n.y + parts[part].normal_z.xyz * n.z;
 }
 
 // Starts a ray where it is nearest to `center`.
@@ -40,8 +57,8 @@ fn anchored(ray: LocalRay, center: vec3f) -> Anchored {
     return Anchored(ray.origin + ray.direction * shift, shift);
 }
 
-fn part_span(part: u32, at: vec2f) -> Span {
-    let ray = local_ray(part, at);
+fn part_span(part: u32, lens_ray: LensRay) -> Span {
+    let ray = local_ray(part, lens_ray);
     var span = no_span();
     switch parts[part].form {
         case FORM_SPHERE: {
@@ -54,7 +71,7 @@ fn part_span(part: u32, at: vec2f) -> Span {
             span = capsule_span(ray, parts[part].length);
         }
         case FORM_HALF_SPACES: {
-            span = half_space_span(part, at);
+            span = half_space_span(part, lens_ray);
         }
         default: {
         }
@@ -167,18 +184,18 @@ fn united(a: Span, b: Span) -> Span {
     return Span(min(a.entry, b.entry), max(a.exit, b.exit), 0u, 0u, true);
 }
 
-fn half_space_span(part: u32, at: vec2f) -> Span {
+fn half_space_span(part: u32, ray: LensRay) -> Span {
     var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
-    if (parts[part].flags & PART_DEPTH_MAP) != 0u {
-        let cell = map_cell(part, at);
+    if (parts[part].flags & PART_DEPTH_MAP) != 0u && !ray.is_moved {
+        let cell = map_cell(part, ray.at);
         let entry = layers[cell];
         let exit = layers[cell + 1u];
         let around_eye = (parts[part].flags & PART_HOLDS_EYE) != 0u;
         if exit != 0u && (entry != 0u || around_eye) {
-            span.exit = plane_crossing(part, exit - 1u, at).t;
+            span.exit = plane_crossing(part, exit - 1u, ray).t;
             span.exit_face = exit - 1u;
             if entry != 0u {
-                span.entry = plane_crossing(part, entry - 1u, at).t;
+                span.entry = plane_crossing(part, entry - 1u, ray).t;
                 span.entry_face = entry - 1u;
             }
             return span;
@@ -189,7 +206,7 @@ fn half_space_span(part: u32, at: vec2f) -> Span {
         // A pixel between faces that rounding has torn apart: all planes are asked.
     }
     for (var face = 0u; face < parts[part].plane_count; face += 1u) {
-        let crossing = plane_crossing(part, face, at);
+        let crossing = plane_crossing(part, face, ray);
         if crossing.rate == 0.0 {
             if crossing.distance > 0.0 {
                 return no_span();

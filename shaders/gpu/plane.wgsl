@@ -1,4 +1,22 @@
-// Where a pixel's ray crosses one plane of a part.
+// The rays that parts of lenses are asked about, and where one crosses a plane of a part.
+
+// A pixel's own ray, or one that lenses have moved.
+struct LensRay {
+    // The point of the picture.
+    at: vec2f,
+    is_moved: bool,
+    // Of a moved ray, around the eye.
+    origin: vec3f,
+    direction: vec3f,
+}
+
+fn lens_ray(at: vec2f) -> LensRay {
+    return LensRay(at, false, vec3f(0.0), vec3f(0.0));
+}
+
+fn moved_ray(origin: vec3f, direction: vec3f) -> LensRay {
+    return LensRay(vec2f(0.0), true, origin, direction);
+}
 
 struct PlaneCrossing {
     // Parameter along the ray.
@@ -9,11 +27,20 @@ struct PlaneCrossing {
     distance: f32,
 }
 
-fn plane_crossing(part: u32, face: u32, at: vec2f) -> PlaneCrossing {
-    let k = lens_data[parts[part].first_plane + 2u * face];
-    let moving = k.y + k.z * at.x + k.w * at.y;
-    let distance = select(moving, k.x, frame.perspective != 0u);
-    let rate = select(k.x, moving, frame.perspective != 0u);
+fn plane_crossing(part: u32, face: u32, ray: LensRay) -> PlaneCrossing {
+    let first = parts[part].first_plane + 2u * face;
+    var distance = 0.0;
+    var rate = 0.0;
+    if MOVERS && ray.is_moved {
+        let plane = lens_data[first + 1u];
+        distance = dot(plane.xyz, ray.origin) - plane.w;
+        rate = dot(plane.xyz, ray.direction);
+    } else {
+        let k = lens_data[first];
+        let moving = k.y + k.z * ray.at.x + k.w * ray.at.y;
+        distance = select(moving, k.x, frame.perspective != 0u);
+        rate = select(k.x, moving, frame.perspective != 0u);
+    }
     let t = clamp(-distance / select(rate, 1e-30, rate == 0.0), -FAR_AWAY, FAR_AWAY);
     return PlaneCrossing(t, rate, distance);
 }

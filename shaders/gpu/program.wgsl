@@ -1,12 +1,13 @@
-// The tree of a lens with several parts or a mesh, as a program in postfix order: twin of `program.rs`.
+// The tree of a lens with several parts or a mesh, or the condition of a rule, as a program in postfix order: twin of
+// `program.rs`.
 
-// The lower two bits of a word of a program; the others number a part of the lens.
+// The lower two bits of a word of a program; the others number a part of the lens or a name of the condition.
 const TOKEN_INSIDE: u32 = 0u;
 const TOKEN_OUTSIDE: u32 = 1u;
 const TOKEN_BOTH: u32 = 2u;
 const TOKEN_EITHER: u32 = 3u;
 
-// Which parts of the lens at hand hold the point at hand.
+// Which parts of the lens at hand hold the point at hand, or which names of the condition do.
 var<private> inside_parts: array<u32, PART_WORDS>;
 
 fn is_inside_part(number: u32) -> bool {
@@ -17,10 +18,10 @@ fn cross_part(number: u32) {
     inside_parts[number / 32u] ^= 1u << (number % 32u);
 }
 
-// Whether the lens as a whole then holds the point.
-fn is_inside_lens(rank: u32) -> bool {
+// Whether the lens or the condition as a whole then holds. A lens without a program is its only part.
+fn program_holds(rank: u32) -> bool {
     // One bit a value, the newest lowest: the host orders programs so that they never need more than 32.
-    var stack = 0u;
+    var stack = inside_parts[0] & 1u;
     let first = lenses[rank].first_token;
     for (var i = first; i < first + lenses[rank].token_count; i += 1u) {
         let token = lens_words[i];

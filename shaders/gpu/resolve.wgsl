@@ -5,7 +5,7 @@
 
 fn composited(pixel: vec2u) -> vec4f {
     let ray = pixel_ray(pixel);
-    let at = sample_point(pixel);
+    let at = lens_ray(sample_point(pixel));
     let tile = tile_at(pixel);
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
@@ -30,7 +30,7 @@ fn composited(pixel: vec2u) -> vec4f {
         if !pick.found {
             break;
         }
-        let shaded = shade(classified(pick, tile, pixel), ray);
+        let shaded = shade(classified(pick, tile, pixel, ray), ray);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);
         if opacity >= OPAQUE_FROM {

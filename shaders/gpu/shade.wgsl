@@ -119,71 +119,47 @@ fn read_at_corners(texture: u32, uv: CornerUv, t: Triangle, weights: vec3f, ray:
     return Read(texture, uv.a * weights.x + uv.b * weights.y + uv.c * weights.z, footprint);
 }
 
-// The read of a `texture` filter; `normal` is the material's.
-fn filter_read(op: Op, item: u32, t: Triangle, weights: vec3f, position: vec3f, normal: vec3f, ray: PixelRay) -> Read {
+// The read of a `texture` filter of the lens of a rank, which acts where the lenses above move its content from.
+fn filter_read(op: Op, rank: u32, item: u32, t: Triangle, weights: vec3f, s: Surface, ray: PixelRay) -> Read {
     let scale = op.a.xy;
     if op.flags == UV_MESH {
         let uv = corner_uv(item, t.corners, 0u);
         return read_at_corners(op.texture, CornerUv(uv.a * scale, uv.b * scale, uv.c * scale), t, weights, ray);
     }
+    var position = s.position;
+    // Movements are similarities; how much longer a shown length is at the source.
+    var reach = 1.0;
+    let step = step_before(item, rank, op.inner != 0u);
+    if MOVERS && step != 0u {
+        position = step_point(step - 1u, position);
+        reach = length(step_vector(step - 1u, vec3f(1.0, 0.0, 0.0)));
+    }
     let mapped = (position - frame.texture_space.xyz) * frame.texture_space.w;
     // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
-    let span = position_footprint(ray, position, normal);
+    let span = position_footprint(ray, s.position, s.normal);
     let texels = abs(scale) * texture_size(op.texture);
-    let footprint = max(span.x, span.y) * frame.texture_space.w * max(texels.x, texels.y);
-    return Read(op.texture, projected_uv(op.flags, mapped, normal) * scale, footprint);
+    let footprint = max(span.x, span.y) * reach * frame.texture_space.w * max(texels.x, texels.y);
+    return Read(op.texture, projected_uv(op.flags, mapped, s.normal) * scale, footprint);
 }
 
-// The stack's last `texture` filter, or NONE: it replaces what those before it have read.
-fn last_texture_op(stack: Set) -> u32 {
-    var found = NONE;
-    for (var w = 0u; w < WORDS; w += 1u) {
-        var rest = stack.words[w];
-        while rest != 0u {
-            let rank = w * 32u + firstTrailingBit(rest);
-            rest = rest & (rest - 1u);
-            let end = lenses[rank].first_op + lenses[rank].op_count;
-            for (var i = lenses[rank].first_op; i < end; i += 1u) {
-                if ops[i].kind == OP_TEXTURE {
-                    found = i;
-                }
-            }
-        }
-    }
-    return found;
-}
-
-// A surface as its material has it, and the texel of the stack's last `texture` filter.
-struct Textured {
-    surface: Surface,
-    filter_texel: vec4f,
-}
-
-fn textured_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> Textured {
+// A surface as its material has it.
+fn material_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> Surface {
     let item = f.item;
     let m = items[item].material;
     let view = -normalize(ray.direction);
     let geometric = normalize_or(cross(t.b - t.a, t.c - t.a), vec3f(0.0));
-    let position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
-    let op = last_texture_op(f.stack);
     // White where there is no texture. One loop over all slots in use, so that the reading stands here once.
-    var texels = array<vec4f, 6>(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
-    var slots = items[item].slots | select(1u << SLOT_FILTER, 0u, op == NONE);
+    var texels = array<vec4f, 5>(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
+    var slots = items[item].slots;
     while slots != 0u {
         let slot = firstTrailingBit(slots);
         slots = slots & (slots - 1u);
-        var read: Read;
-        if slot == SLOT_FILTER {
-            let normal = shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz);
-            read = filter_read(ops[op], item, t, weights, position, normal, ray);
-        } else {
-            let uv = slot_uv(item, t.corners, materials[m].slots[slot]);
-            read = read_at_corners(materials[m].slots[slot].texture, uv, t, weights, ray);
-        }
+        let uv = slot_uv(item, t.corners, materials[m].slots[slot]);
+        let read = read_at_corners(materials[m].slots[slot].texture, uv, t, weights, ray);
         texels[slot] = sample_texture(read.texture, read.uv, read.footprint);
     }
     var s: Surface;
-    s.position = position;
+    s.position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
     s.normal = shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz);
     s.view = view;
     s.factor = materials[m].base_color;
@@ -199,7 +175,7 @@ fn textured_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> 
     s.alpha_cutoff = materials[m].alpha_cutoff;
     s.opacity = 1.0;
     s.unlit = f32(materials[m].unlit);
-    return Textured(s, texels[SLOT_FILTER]);
+    return s;
 }
 
 // Light that a surface sends to the viewer.
@@ -214,67 +190,43 @@ fn lit(s: Surface) -> vec3f {
     return sum;
 }
 
-// Runs the stack on a fragment that a pixel's ray has met.
+// Runs the stack on a fragment that a pixel's ray has met: surface filters, lighting once, colour filters, coverage.
 fn shade(f: Fragment, ray: PixelRay) -> ShadedFragment {
     let t = fetch_triangle(f.item, f.triangle);
     let weights = surface_hit(ray, t).weights;
-    let textured = textured_surface(f, t, weights, ray);
-    var surface = textured.surface;
-    let normal = surface.normal;
+    var surface = material_surface(f, t, weights, ray);
+    var shaded = Shaded(vec3f(0.0), 0.0, 1.0);
     // Bit s: some filter of the stack acts in stage s.
-    var stages = 0u;
-    for (var w = 0u; w < WORDS; w += 1u) {
-        var rest = f.stack.words[w];
-        while rest != 0u {
-            let rank = w * 32u + firstTrailingBit(rest);
-            rest = rest & (rest - 1u);
-            let end = lenses[rank].first_op + lenses[rank].op_count;
-            for (var i = lenses[rank].first_op; i < end; i += 1u) {
-                surface = filter_surface(ops[i], surface, textured.filter_texel);
-                stages |= 1u << op_stage(ops[i].kind);
-            }
+    var stages = 1u << STAGE_SURFACE;
+    for (var stage = STAGE_SURFACE; stage <= STAGE_COVERAGE; stage += 1u) {
+        if stage == STAGE_COLOR {
+            shaded = Shaded(emitted(surface, lit(surface)), surface_opacity(surface), 1.0);
         }
-    }
-    var shaded = Shaded(emitted(surface, lit(surface)), surface_opacity(surface), 1.0);
-    if (stages & (1u << STAGE_COLOR)) != 0u {
-        shaded.color = filtered_color(f.stack, shaded.color);
-    }
-    if (stages & (1u << STAGE_COVERAGE)) != 0u {
-        shaded = covered(f.stack, shaded, wire_distance(ray, t.a, t.b, t.c));
-    }
-    return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, normal);
-}
-
-fn filtered_color(stack: Set, color: vec3f) -> vec3f {
-    var result = color;
-    for (var w = 0u; w < WORDS; w += 1u) {
-        var rest = stack.words[w];
-        while rest != 0u {
-            let rank = w * 32u + firstTrailingBit(rest);
-            rest = rest & (rest - 1u);
-            let end = lenses[rank].first_op + lenses[rank].op_count;
-            for (var i = lenses[rank].first_op; i < end; i += 1u) {
-                result = filter_color(ops[i], result);
-            }
-        }
-    }
-    return result;
-}
-
-fn covered(stack: Set, before: Shaded, edge: f32) -> Shaded {
-    var result = before;
-    for (var w = 0u; w < WORDS; w += 1u) {
-        var rest = stack.words[w];
-        while rest != 0u {
-            let rank = w * 32u + firstTrailingBit(rest);
-            rest = rest & (rest - 1u);
-            let end = lenses[rank].first_op + lenses[rank].op_count;
-            for (var i = lenses[rank].first_op; i < end; i += 1u) {
-                if ops[i].kind == OP_WIREFRAME {
-                    result = filter_wireframe(ops[i], result, edge);
+        for (var w = 0u; w < select(0u, WORDS, (stages & (1u << stage)) != 0u); w += 1u) {
+            var rest = f.stack.words[w];
+            while rest != 0u {
+                let rank = w * 32u + firstTrailingBit(rest);
+                rest = rest & (rest - 1u);
+                let amount = soft_amount(rank, f.item, surface.position);
+                let end = lenses[rank].first_op + lenses[rank].op_count;
+                for (var i = lenses[rank].first_op; i < end; i += 1u) {
+                    stages |= 1u << op_stage(ops[i].kind);
+                    if stage == STAGE_SURFACE {
+                        var texel = vec4f(1.0);
+                        if ops[i].kind == OP_TEXTURE {
+                            let read = filter_read(ops[i], rank, f.item, t, weights, surface, ray);
+                            texel = sample_texture(read.texture, read.uv, read.footprint);
+                        }
+                        surface = faded_surface(surface, filter_surface(ops[i], surface, texel), amount);
+                    } else if stage == STAGE_COLOR {
+                        shaded.color = mix(shaded.color, filter_color(ops[i], shaded.color), amount);
+                    } else if ops[i].kind == OP_WIREFRAME {
+                        let edge = wire_distance(ray, t.a, t.b, t.c);
+                        shaded = faded_shaded(shaded, filter_wireframe(ops[i], shaded, edge), amount);
+                    }
                 }
             }
         }
     }
-    return result;
+    return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, surface.normal);
 }

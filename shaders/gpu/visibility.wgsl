@@ -38,11 +38,12 @@ fn plain(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) v
 fn fused(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
     let pixel = vec2u(in.position.xy);
     let tile = tile_at(pixel);
-    let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
+    let ray = pixel_ray(pixel);
+    let hit = surface_hit(ray, fetch_triangle(in.item, triangle));
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
-    return keep(in.item, triangle, pixel, hit.depth, set_at(tile, pixel, hit.depth));
+    return keep(in.item, triangle, pixel, ray, hit.depth, set_at(tile, pixel, hit.depth));
 }
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
@@ -54,24 +55,25 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
     if frame.layer >= count {
         discard;
     }
-    let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
+    let ray = pixel_ray(pixel);
+    let hit = surface_hit(ray, fetch_triangle(in.item, triangle));
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
     if tile.part_count == 0u {
-        return keep(in.item, triangle, pixel, hit.depth, Set());
+        return keep(in.item, triangle, pixel, ray, hit.depth, Set());
     }
     let at = layers_at(tile, pixel);
     let next = frame.layer + 1u;
     if !is_begun(at, frame.layer, hit.depth) || (next < count && is_begun(at, next, hit.depth)) {
         discard;
     }
-    return keep(in.item, triangle, pixel, hit.depth, layer_set(at, frame.layer));
+    return keep(in.item, triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
-fn keep(item: u32, triangle: u32, pixel: vec2u, depth: f32, inside: Set) -> vec2u {
-    let verdict = walk(item, inside);
+fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> vec2u {
+    let verdict = walk(item, ray, depth, inside);
     if !verdict.displayed {
         discard;
     }

@@ -28,7 +28,7 @@ impl Layouts {
         let compute = wgpu::ShaderStages::COMPUTE;
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let everywhere = compute | fragment | wgpu::ShaderStages::VERTEX;
-        let plan = [Uniform, Read, Read, Read, Read, Read, Read, Read, Read];
+        let plan = [Uniform, Read, Read, Read, Read, Read, Read, Read, Read, Read];
         Self {
             scene: layout(
                 device,

@@ -96,8 +96,8 @@ fn missing_feature(adapter: &wgpu::Adapter) -> Option<String> {
     (!missing.is_empty()).then(|| format!("{missing:?}"))
 }
 
-/// Storage buffers a shader stage binds: the scene (5), the plan (8), and the pixel's layers, lists and colours (4).
-const STORAGE_BUFFERS: u32 = 17;
+/// Storage buffers a shader stage binds: the scene (5), the plan (9), and the pixel's layers, lists and colours (4).
+const STORAGE_BUFFERS: u32 = 18;
 
 /// The limits asked for: the defaults, and as much memory and texture as the adapter has, since full pictures of
 /// layers and fragments outgrow the defaults. Needs are checked against them before anything is drawn.

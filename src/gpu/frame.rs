@@ -89,6 +89,9 @@ impl FrameShape<'_> {
             fragment_capacity: self.fragment_capacity,
             active_tiles: self.tiles.active,
             target_is_srgb: u32::from(self.target_is_srgb),
+            lens_count: plan.lenses.len() as u32,
+            rule_count: plan.rules.len() as u32,
+            pad: [0; 2],
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

@@ -1,15 +1,17 @@
-//! The lenses of a plan as records, with the lists that they point into.
+//! The lenses and rules of a plan as records, with the lists that they point into.
 
 use super::depth_maps::DepthMaps;
 use super::part_data::PartData;
-use super::program::program;
+use super::program::{condition, program};
 use super::records::{self, LensRecord, words_of};
-use crate::plan::Plan;
+use crate::plan::{Lens, LensSet, Plan, Rule};
+use crate::spec::By;
+use crate::view::View;
 
 /// Records of all lenses and of their parts.
 #[derive(Debug, Clone, Default)]
 pub struct LensData {
-    /// A record and the words of the set that it hides, for each lens.
+    /// A record and the words of the set that it hides, for each lens, then for each rule.
     pub lenses: Vec<u8>,
     pub parts: PartData,
 }
@@ -19,30 +21,64 @@ impl LensData {
     pub fn new(plan: &Plan, words: u32, maps: &DepthMaps, crossings: u32) -> Self {
         let mut data = Self::default();
         for (rank, lens) in (0u32..).zip(&plan.lenses) {
-            let first_part = data.parts.records.len() as u32;
-            for solid in &lens.volume.parts {
-                data.parts.add(&plan.view, rank, solid, maps, crossings);
-            }
-            let program = if lens.volume.lone().is_some() { vec![] } else { program(&lens.volume.tree) };
-            let mut record = LensRecord {
-                first_part,
-                part_count: lens.volume.parts.len() as u32,
-                first_token: data.parts.words.len() as u32,
-                token_count: program.len() as u32,
-                first_op: lens.ops.start as u32,
-                op_count: lens.ops.len() as u32,
-                ..bytemuck::Zeroable::zeroed()
-            };
-            if let Some(glass) = lens.glass {
-                record.glass = glass;
-                record.flags |= records::LENS_GLASS;
-            }
-            data.parts.words.extend(program);
-            data.lenses.extend_from_slice(bytemuck::bytes_of(&record));
-            words_of(&lens.hides, words).for_each(|word| data.lenses.extend_from_slice(&word.to_le_bytes()));
-            // Records start at multiples of 16 bytes.
-            data.lenses.resize(data.lenses.len().next_multiple_of(16), 0);
+            let record = data.lens(&plan.view, rank, lens, maps, crossings);
+            data.push(record, &lens.hides, words);
+        }
+        for rule in &plan.rules {
+            let record = data.rule(rule, words);
+            data.push(record, &LensSet::EMPTY, words);
         }
         data
+    }
+
+    fn push(&mut self, record: LensRecord, hides: &LensSet, words: u32) {
+        self.lenses.extend_from_slice(bytemuck::bytes_of(&record));
+        words_of(hides, words).for_each(|word| self.lenses.extend_from_slice(&word.to_le_bytes()));
+        // Records start at multiples of 16 bytes.
+        self.lenses.resize(self.lenses.len().next_multiple_of(16), 0);
+    }
+
+    fn lens(&mut self, view: &View, rank: u32, lens: &Lens, maps: &DepthMaps, crossings: u32) -> LensRecord {
+        let first_part = self.parts.records.len() as u32;
+        for solid in &lens.volume.parts {
+            self.parts.add(view, rank, solid, maps, crossings);
+        }
+        let program = if lens.volume.lone().is_some() { vec![] } else { program(&lens.volume.tree) };
+        let mut record = LensRecord {
+            first_part,
+            part_count: lens.volume.parts.len() as u32,
+            first_token: self.parts.words.len() as u32,
+            token_count: program.len() as u32,
+            first_op: lens.ops.start as u32,
+            op_count: lens.ops.len() as u32,
+            soft: lens.soft as f32,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        self.parts.words.extend(program);
+        if let Some(glass) = lens.glass {
+            record.glass = glass;
+            record.flags |= records::LENS_GLASS;
+        }
+        if lens.by == By::Object {
+            record.flags |= records::LENS_BY_OBJECT;
+        }
+        record
+    }
+
+    fn rule(&mut self, rule: &Rule, words: u32) -> LensRecord {
+        let (names, program) = condition(&rule.when);
+        let first_part = self.parts.words.len() as u32;
+        names.iter().for_each(|name| self.parts.words.extend(words_of(name, words)));
+        let record = LensRecord {
+            first_part,
+            part_count: names.len() as u32,
+            first_token: self.parts.words.len() as u32,
+            token_count: program.len() as u32,
+            first_op: rule.ops.start as u32,
+            op_count: rule.ops.len() as u32,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        self.parts.words.extend(program);
+        record
     }
 }

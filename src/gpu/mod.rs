@@ -12,8 +12,10 @@ mod draws;
 mod error;
 mod frame;
 mod headless;
+mod item_data;
 mod job;
 mod lens_data;
+mod needs;
 mod part_data;
 mod pipelines;
 mod plan_group;
@@ -31,14 +33,15 @@ mod window;
 pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe, required_features, required_limits};
 pub use error::Error;
 pub use headless::{Headless, Timings};
+pub use needs::Needs;
 pub use renderer::{Encoded, Renderer};
 pub use room::Room;
-pub use shaders::{Module, SetWords, source};
+pub use shaders::{Module, source};
 pub use window::Window;
 
 pub mod layout {
     //! The records shared with WGSL, for tests that compare their layouts.
-    pub use super::records::{FrameRecord, ItemRecord, LensRecord, PartRecord, TextureInfo};
+    pub use super::records::{FrameRecord, ItemRecord, LensRecord, PartRecord, StepRecord, TextureInfo};
 }
 
 /// How the scene meets the layers.

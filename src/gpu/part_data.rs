@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use super::depth_maps::{DepthMap, DepthMaps};
-use super::records::{self, PartRecord, extended};
+use super::records::{self, PartRecord, extended, rows};
 use crate::lens::{Form, MeshSolid, Plane, Solid};
 use crate::view::View;
 
@@ -13,7 +13,7 @@ pub struct PartData {
     pub records: Vec<PartRecord>,
     /// Planes and corners.
     pub vectors: Vec<[f32; 4]>,
-    /// Meshes, and the programs of lenses.
+    /// Meshes, and the programs of lenses and rules.
     pub words: Vec<u32>,
 }
 
@@ -68,6 +68,7 @@ impl PartData {
         let local_from_eye = solid.local_from_world * DAffine3::from_translation(view.eye);
         let ray = AffineRay::new(view).in_space(&local_from_eye, perspective);
         let normals = solid.local_from_world.matrix3.transpose();
+        let [local_x, local_y, local_z] = rows(&local_from_eye);
         let mut record = PartRecord {
             ray_fixed: extended(ray.fixed),
             ray_base: extended(ray.base),
@@ -76,6 +77,9 @@ impl PartData {
             normal_x: extended(normals.x_axis),
             normal_y: extended(normals.y_axis),
             normal_z: extended(normals.z_axis),
+            local_x,
+            local_y,
+            local_z,
             lens: rank,
             ..bytemuck::Zeroable::zeroed()
         };
@@ -85,7 +89,7 @@ impl PartData {
             record.corner_count = solid.hull.len() as u32;
             self.vectors.extend(solid.hull.iter().map(|p| extended(*p - view.eye)));
         }
-        self.set_form(&mut record, solid, &ray, perspective);
+        self.set_form(&mut record, solid, &local_from_eye, &ray, perspective);
         if let Form::Mesh(mesh) = &solid.form {
             self.set_mesh(&mut record, mesh);
             record.crossing_room = crossings;
@@ -96,7 +100,14 @@ impl PartData {
         self.records.push(record);
     }
 
-    fn set_form(&mut self, record: &mut PartRecord, solid: &Solid, ray: &AffineRay, perspective: bool) {
+    fn set_form(
+        &mut self,
+        record: &mut PartRecord,
+        solid: &Solid,
+        local_from_eye: &DAffine3,
+        ray: &AffineRay,
+        perspective: bool,
+    ) {
         match &solid.form {
             Form::Sphere => record.form = records::FORM_SPHERE,
             Form::Cone { r0, r1 } => {
@@ -115,7 +126,9 @@ impl PartData {
                 let to_world = solid.local_from_world.matrix3.transpose();
                 for plane in planes {
                     self.vectors.push(ray.plane(plane, perspective));
-                    self.vectors.push(extended((to_world * plane.normal).normalize_or_zero()));
+                    let gradient = to_world * plane.normal;
+                    let offset = (plane.offset - plane.normal.dot(local_from_eye.translation)) / gradient.length();
+                    self.vectors.push(gradient.normalize_or_zero().extend(offset).as_vec4().to_array());
                 }
             }
             Form::Mesh(_) => record.form = records::FORM_MESH,

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::bindings::Layouts;
 use super::depth_maps::FaceVertex;
 use super::draws::Culling;
-use super::{Module, SetWords, source};
+use super::{Module, Needs, source};
 
 /// Formats of what the visibility pass draws into.
 pub const ID_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
@@ -37,25 +37,25 @@ pub struct PipelineStore {
     /// Of the views that pictures are drawn into.
     pub target: wgpu::TextureFormat,
     device: wgpu::Device,
-    by_words: Mutex<BTreeMap<SetWords, Arc<Pipelines>>>,
+    by_needs: Mutex<BTreeMap<Needs, Arc<Pipelines>>>,
 }
 
 impl PipelineStore {
     pub fn new(device: &wgpu::Device, target: wgpu::TextureFormat) -> Self {
-        Self { layouts: Layouts::new(device), target, device: device.clone(), by_words: Mutex::default() }
+        Self { layouts: Layouts::new(device), target, device: device.clone(), by_needs: Mutex::default() }
     }
 
-    /// The pipelines for sets of so many words.
-    pub fn get(&self, words: SetWords) -> Arc<Pipelines> {
-        let mut kept = self.by_words.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.entry(words).or_insert_with(|| Arc::new(Pipelines::new(words))).clone()
+    /// The pipelines for plans with the same needs.
+    pub fn get(&self, needs: Needs) -> Arc<Pipelines> {
+        let mut kept = self.by_needs.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.entry(needs).or_insert_with(|| Arc::new(Pipelines::new(needs))).clone()
     }
 }
 
-/// Pipelines for one size of sets; independent of scene and plan.
+/// Pipelines for all plans with the same needs, and any scene.
 #[derive(Debug)]
 pub struct Pipelines {
-    words: SetWords,
+    needs: Needs,
     depth_map: OnceLock<wgpu::RenderPipeline>,
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::ComputePipeline>,
@@ -66,9 +66,9 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    fn new(words: SetWords) -> Self {
+    fn new(needs: Needs) -> Self {
         Self {
-            words,
+            needs,
             depth_map: OnceLock::new(),
             layers: OnceLock::new(),
             resolve: OnceLock::new(),
@@ -81,7 +81,7 @@ impl Pipelines {
 
     pub fn depth_map(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
         let build = || {
-            let module = compile(&store.device, Module::DepthMap, self.words);
+            let module = compile(&store.device, Module::DepthMap, &self.needs);
             depth_map_pipeline(&store.device, &module, &pipeline_layout(store, &store.layouts.layers))
         };
         self.depth_map.get_or_init(build).clone()
@@ -101,7 +101,7 @@ impl Pipelines {
 
     pub fn finish(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
         let build = || {
-            let module = compile(&store.device, Module::Finish, self.words);
+            let module = compile(&store.device, Module::Finish, &self.needs);
             let layout = pipeline_layout(store, &store.layouts.finish);
             finish_pipeline(&store.device, &module, &layout, store.target)
         };
@@ -109,7 +109,7 @@ impl Pipelines {
     }
 
     pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
-        let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, self.words));
+        let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, &self.needs));
         let build = || {
             let layout = pipeline_layout(store, &store.layouts.visibility);
             draw_pipeline(&store.device, module, &layout, program.entry(), culling)
@@ -127,17 +127,17 @@ impl Pipelines {
         entry: &str,
     ) -> wgpu::ComputePipeline {
         let build = || {
-            let module = compile(&store.device, module, self.words);
+            let module = compile(&store.device, module, &self.needs);
             compute_pipeline(&store.device, &module, &pipeline_layout(store, layout), entry)
         };
         slot.get_or_init(build).clone()
     }
 }
 
-fn compile(device: &wgpu::Device, module: Module, words: SetWords) -> wgpu::ShaderModule {
+fn compile(device: &wgpu::Device, module: Module, needs: &Needs) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(module.name()),
-        source: wgpu::ShaderSource::Wgsl(source(module, words).into()),
+        source: wgpu::ShaderSource::Wgsl(source(module, needs).into()),
     })
 }
 

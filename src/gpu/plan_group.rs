@@ -2,6 +2,7 @@
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
+use super::item_data::ItemData;
 use super::lens_data::LensData;
 use super::records::FrameRecord;
 use super::upload::check_size;
@@ -12,7 +13,7 @@ use crate::plan::{LightRecord, Plan};
 pub struct PlanContents<'a> {
     pub plan: &'a Plan,
     pub frames: &'a [u8],
-    pub items: &'a [u8],
+    pub items: &'a ItemData,
     pub lenses: &'a LensData,
     pub tiles: &'a [u32],
 }
@@ -25,12 +26,13 @@ impl PlanContents<'_> {
         layout: &wgpu::BindGroupLayout,
         allowed: u64,
     ) -> Result<wgpu::BindGroup, Error> {
-        let Self { plan, lenses, .. } = self;
+        let Self { plan, items, lenses, .. } = self;
         let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let buffer = |label, bytes| plan_buffer(device, allowed, label, bytes, wgpu::BufferUsages::STORAGE);
         let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::UNIFORM)?;
         let storage = [
-            buffer("the plan's items", self.items)?,
+            buffer("the plan's items", &items.items)?,
+            buffer("the plan's steps of movers", bytemuck::cast_slice(&items.steps))?,
             buffer("the plan's lenses", &lenses.lenses)?,
             buffer("the plan's parts of lenses", bytemuck::cast_slice(&lenses.parts.records))?,
             buffer("the plan's planes and corners of lenses", bytemuck::cast_slice(&lenses.parts.vectors))?,

@@ -1,8 +1,9 @@
-//! The tree of a lens as a program in postfix order: twin of `shaders/gpu/program.wgsl`.
+//! The tree of a lens, or the condition of a rule, as a program in postfix order: twin of `shaders/gpu/program.wgsl`.
 
 use std::cmp::Reverse;
 
 use crate::lens::Tree;
+use crate::plan::{LensSet, Test};
 
 const INSIDE: u32 = 0;
 const OUTSIDE: u32 = 1;
@@ -11,7 +12,14 @@ const EITHER: u32 = 3;
 
 /// The program of a tree: a word for each part, and one for each two values that become one.
 pub fn program(tree: &Tree) -> Vec<u32> {
-    code(tree, false).words
+    tree_code(tree, false).words
+}
+
+/// The program of a rule's condition, with the sets of lenses that its words number: one of a set must be there.
+pub fn condition(test: &Test) -> (Vec<LensSet>, Vec<u32>) {
+    let mut names = Vec::new();
+    let words = test_code(test, false, &mut names).words;
+    (names, words)
 }
 
 struct Code {
@@ -20,29 +28,49 @@ struct Code {
     depth: usize,
 }
 
-/// A part that is taken away is asked whether it is outside, so there are no differences.
-fn code(tree: &Tree, negated: bool) -> Code {
-    let (list, is_intersection) = match tree {
-        Tree::Part(part) => {
-            let word = (*part as u32) << 2 | if negated { OUTSIDE } else { INSIDE };
-            return Code { words: vec![word], depth: 1 };
+impl Code {
+    fn leaf(number: usize, negated: bool) -> Self {
+        Self { words: vec![(number as u32) << 2 | if negated { OUTSIDE } else { INSIDE }], depth: 1 }
+    }
+
+    /// The deepest first, so that the depth grows like the logarithm of the leaves (Sethi and Ullman 1970) and the
+    /// shader's 32 bits are enough for any tree.
+    fn join(mut codes: Vec<Code>, both: bool) -> Self {
+        codes.sort_by_key(|code| Reverse(code.depth));
+        let mut joined = Self { words: Vec::new(), depth: 0 };
+        for (i, code) in codes.into_iter().enumerate() {
+            joined.depth = joined.depth.max(code.depth + usize::from(i > 0));
+            joined.words.extend(code.words);
+            joined.words.extend((i > 0).then_some(if both { BOTH } else { EITHER }));
         }
+        joined
+    }
+}
+
+/// A part that is taken away is asked whether it is outside, so there are no differences.
+fn tree_code(tree: &Tree, negated: bool) -> Code {
+    let (list, is_intersection) = match tree {
+        Tree::Part(part) => return Code::leaf(*part, negated),
         Tree::Union(list) => (list, false),
         Tree::Intersection(list) | Tree::Difference(list) => (list, true),
     };
     let is_taken_away = |i: usize| i > 0 && matches!(tree, Tree::Difference(_));
-    let mut codes: Vec<Code> = list.iter().enumerate().map(|(i, t)| code(t, negated != is_taken_away(i))).collect();
-    // The deepest first, so that the depth grows like the logarithm of the parts (Sethi and Ullman 1970) and the
-    // shader's 32 bits are enough for any tree.
-    codes.sort_by_key(|code| Reverse(code.depth));
-    let join = if is_intersection != negated { BOTH } else { EITHER };
-    let mut joined = Code { words: Vec::new(), depth: 0 };
-    for (i, code) in codes.into_iter().enumerate() {
-        joined.depth = joined.depth.max(code.depth + usize::from(i > 0));
-        joined.words.extend(code.words);
-        joined.words.extend((i > 0).then_some(join));
+    let codes = list.iter().enumerate().map(|(i, part)| tree_code(part, negated != is_taken_away(i)));
+    Code::join(codes.collect(), is_intersection != negated)
+}
+
+fn test_code(test: &Test, negated: bool, names: &mut Vec<LensSet>) -> Code {
+    match test {
+        Test::Any(lenses) => {
+            names.push(*lenses);
+            Code::leaf(names.len() - 1, negated)
+        }
+        Test::Not(inner) => test_code(inner, !negated, names),
+        Test::And(left, right) | Test::Or(left, right) => {
+            let codes = vec![test_code(left, negated, names), test_code(right, negated, names)];
+            Code::join(codes, matches!(test, Test::And(..)) != negated)
+        }
     }
-    joined
 }
 
 #[cfg(test)]
@@ -91,8 +119,21 @@ mod tests {
     }
 
     #[test]
+    fn conditions_say_what_their_tests_say() {
+        let any = |lens: usize| Box::new(Test::Any(LensSet::only(lens)));
+        let either = Test::Or(any(3), Box::new(Test::Not(any(4))));
+        let test = Test::Not(Box::new(Test::And(any(5), Box::new(either))));
+        let (names, words) = condition(&test);
+        for lenses in 0..64u32 {
+            let set: LensSet = (0..6).filter(|lens| lenses >> lens & 1 == 1).collect();
+            let met = |(i, name): (usize, &LensSet)| u32::from(!(*name & set).is_empty()) << i;
+            assert_eq!(run(&words, names.iter().enumerate().map(met).sum()), test.holds(set), "{set:?}");
+        }
+    }
+
+    #[test]
     fn a_chain_of_any_length_needs_two_values() {
         let chain = (1..1000).fold(Tree::Part(0), |tree, part| Tree::Difference(vec![Tree::Part(part), tree]));
-        assert_eq!(code(&chain, false).depth, 2);
+        assert_eq!(tree_code(&chain, false).depth, 2);
     }
 }

@@ -1,9 +1,9 @@
 //! Records as the shaders read them: twins of the structs in `shaders/gpu/common.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
+use glam::DAffine3;
 
-use super::SetWords;
-use crate::plan::{GlassRecord, LensSet, Plan};
+use crate::plan::{GlassRecord, LensSet};
 
 /// Stands for "not there" in an index.
 pub const NONE: u32 = u32::MAX;
@@ -19,6 +19,7 @@ pub const FORM_HALF_SPACES: u32 = 4;
 pub const FORM_MESH: u32 = 5;
 
 pub const LENS_GLASS: u32 = 1;
+pub const LENS_BY_OBJECT: u32 = 2;
 
 pub const PART_FLAT: u32 = 1;
 pub const PART_DEPTH_MAP: u32 = 2;
@@ -55,15 +56,18 @@ pub struct FrameRecord {
     pub fragment_capacity: u32,
     pub active_tiles: u32,
     pub target_is_srgb: u32,
+    pub lens_count: u32,
+    pub rule_count: u32,
+    pub pad: [u32; 2],
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }
 
-/// One item or a chunk of its triangles; its masks follow.
+/// One way in which an item is shown, or a chunk of its triangles; its masks follow.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ItemRecord {
-    /// Rows of the map from local space to the space around the eye.
+    /// Rows of the map from local space to where it is shown around the eye.
     pub row_x: [f32; 4],
     pub row_y: [f32; 4],
     pub row_z: [f32; 4],
@@ -85,21 +89,39 @@ pub struct ItemRecord {
     pub uv1: u32,
     /// Bit i: its material has a texture in its i-th slot.
     pub slots: u32,
+    /// The centre of its node where it is in place, around the eye.
+    pub center: [f32; 3],
+    pub first_step: u32,
+    pub step_count: u32,
 }
 
-/// One lens; the set that it hides follows.
+/// A lens that moves content, on the way down from a shown point.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct StepRecord {
+    /// Rows of the map, around the eye, from the shown point to where the lenses below are asked.
+    pub row_x: [f32; 4],
+    pub row_y: [f32; 4],
+    pub row_z: [f32; 4],
+    pub rank: u32,
+    pub pad: [u32; 3],
+}
+
+/// One lens, or an overlap rule behind them; the set that it hides follows.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct LensRecord {
     pub glass: GlassRecord,
     pub flags: u32,
+    /// Its parts; of a rule the sets of its names, in words.
     pub first_part: u32,
     pub part_count: u32,
-    /// Its program; none where it is one convex part.
+    /// Its program; none where a lens is one convex part.
     pub first_token: u32,
     pub token_count: u32,
     pub first_op: u32,
     pub op_count: u32,
+    pub soft: f32,
 }
 
 /// One solid of a lens volume.
@@ -115,6 +137,10 @@ pub struct PartRecord {
     pub normal_x: [f32; 4],
     pub normal_y: [f32; 4],
     pub normal_z: [f32; 4],
+    /// Rows of the map from the space around the eye.
+    pub local_x: [f32; 4],
+    pub local_y: [f32; 4],
+    pub local_z: [f32; 4],
     /// Rank of its lens.
     pub lens: u32,
     pub form: u32,
@@ -155,13 +181,6 @@ pub struct TextureInfo {
     pub levels: [[u32; 4]; 16],
 }
 
-/// Words of the sets that a plan needs on the device; a stack may hold a rule.
-pub fn set_words(plan: &Plan) -> SetWords {
-    let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
-    let most_parts = plan.lenses.iter().map(|lens| lens.volume.parts.len()).max();
-    SetWords { lenses: words(plan.lenses.len() + plan.rules.len()), parts: words(most_parts.unwrap_or(1)) }
-}
-
 /// The words of a set.
 pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
     (0..words as usize).map(|i| set.word(i))
@@ -174,4 +193,11 @@ pub fn all_words(set: &LensSet) -> [u32; 12] {
 
 pub fn extended(v: glam::DVec3) -> [f32; 4] {
     v.as_vec3().extend(0.0).to_array()
+}
+
+/// Rows of a map as the shaders take them.
+pub fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
+    let rows = map.matrix3.transpose();
+    [(rows.x_axis, map.translation.x), (rows.y_axis, map.translation.y), (rows.z_axis, map.translation.z)]
+        .map(|(row, shift)| row.extend(shift).as_vec4().to_array())
 }

@@ -4,18 +4,19 @@ use std::sync::Arc;
 
 use super::bindings;
 use super::depth_maps::DepthMaps;
-use super::draws::{self, Draw, Part};
+use super::draws::{self, Draw, Piece};
 use super::frame::{self, FrameShape, Sample};
+use super::item_data::ItemData;
 use super::job::{ComputeSteps, Faces, Groups, Job};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::plan_group::{PlanContents, plan_buffer};
-use super::records::{FrameRecord, set_words};
+use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
 use super::tiles::Tiles;
 use super::upload::{SceneData, largest_buffer};
-use super::{Engine, Error, RenderOptions, Room, Window, aov};
+use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -115,12 +116,9 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
-        if plan.instances.len() > plan.items.len() || !plan.rules.is_empty() || plan.lenses.iter().any(|l| l.soft > 0.0)
-        {
-            return Err(Error::Device("movers, rules and soft lenses are not drawn by the GPU yet".into()));
-        }
-        let words = set_words(plan);
-        let tiles = Tiles::new(plan, &window, words.lenses, self.reserved.crossings);
+        let needs = Needs::of(plan);
+        let words = needs.set_words;
+        let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
         let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
         let fragments = self.reserved.fragments.max(first_guess(plan, &window));
         let targets = self.targets(device, &window, depth_maps.end_word, fragments)?;
@@ -140,32 +138,30 @@ impl Renderer {
         let needed = work_buffer(device, self.largest_buffer, "counters of samples", counters)?;
         let maps = options
             .aovs
-            .then(|| {
-                work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words.lenses))
-            })
+            .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
-        let parts = draws::parts(scene, plan, &self.scene);
+        let pieces = draws::pieces(scene, plan, &self.scene);
         let plan_group = PlanContents {
             plan,
             frames: &frames,
-            items: &draws::record_bytes(scene, plan, &parts, words.lenses),
-            lenses: &LensData::new(plan, words.lenses, &depth_maps, room.crossings),
+            items: &ItemData::new(scene, plan, &pieces, words),
+            lenses: &LensData::new(plan, words, &depth_maps, room.crossings),
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
         let groups = self.groups(device, plan_group, &targets, &needed, maps.as_ref());
-        let pipelines = self.store.get(words);
+        let pipelines = self.store.get(needs);
         Ok(Job {
             samples,
             window,
             needed,
             room,
             maps,
-            words: words.lenses,
+            words,
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, &parts, options.engine, &pipelines),
+            draws: self.draws(scene, plan, &window, &pieces, options.engine, &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
@@ -188,7 +184,7 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         window: &Window,
-        parts: &[Part],
+        pieces: &[Piece],
         engine: Engine,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
@@ -197,7 +193,7 @@ impl Renderer {
             Engine::Fused => Program::Fused,
             Engine::Peel => Program::Peel,
         };
-        draws::draws(scene, plan, window, parts)
+        draws::draws(scene, plan, window, pieces)
             .into_iter()
             .map(|draw| {
                 let pipeline = pipelines.draw(&self.store, program(&draw), draw.culling);
@@ -281,7 +277,8 @@ impl Renderer {
 /// Fragments to make room for at first: two a pixel where something may be translucent.
 fn first_guess(plan: &Plan, window: &Window) -> u64 {
     let pixels = window.pixels();
-    if plan.items.iter().any(|item| item.translucent) {
+    // A rule may hold anywhere.
+    if plan.items.iter().any(|item| item.translucent) || plan.rules.iter().any(|rule| rule.translucent) {
         return 2 * pixels;
     }
     let lenses = plan.lenses.iter().filter(|lens| lens.translucent);

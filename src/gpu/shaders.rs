@@ -1,13 +1,6 @@
 //! Puts the shader modules together from their files.
 
-/// 32-bit words of sets, which shaders are compiled for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SetWords {
-    /// Of the lenses of a plan.
-    pub lenses: u32,
-    /// Of the parts of one lens.
-    pub parts: u32,
-}
+use super::Needs;
 
 /// A shader module: what one pipeline or a few of them run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,19 +29,24 @@ impl Module {
         }
     }
 
-    fn parts(self) -> &'static [&'static str] {
+    fn parts(self) -> &'static [&'static [&'static str]] {
         match self {
-            Module::DepthMap => &[PLANE, DEPTH_MAP],
-            Module::Layers => &[SET, PLANE, PART, MESH, PROGRAM, LAYERS],
-            Module::Visibility => &[VISIBILITY, SET, LAYER_LOOKUP, GEOMETRY],
-            Module::Resolve => {
-                &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, PLANE, PART, MESH, PROGRAM, GLASS, FRAGMENTS, RESOLVE]
-            }
-            Module::Aov => &[SET, LAYER_LOOKUP, GEOMETRY, TEXTURE, SHADE, FRAGMENTS, AOV],
-            Module::Finish => &[FINISH],
+            Module::DepthMap => &[&[PLANE, DEPTH_MAP]],
+            Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
+            Module::Visibility => &[&[VISIBILITY], VOLUMES, CLASSIFYING],
+            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, RESOLVE]],
+            Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
+            Module::Finish => &[&[FINISH]],
         }
     }
 }
+
+/// Where rays cross lens volumes.
+const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
+/// Who acts on a fragment.
+const CLASSIFYING: &[&str] = &[SET, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
+/// What a fragment looks like.
+const SHADING: &[&str] = &[TEXTURE, SOFT, SHADE, FRAGMENTS];
 
 const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
@@ -57,6 +55,9 @@ const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
 const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
 const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
 const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
+const MOVED: &str = include_str!("../../shaders/gpu/moved.wgsl");
+const WALK: &str = include_str!("../../shaders/gpu/walk.wgsl");
+const SOFT: &str = include_str!("../../shaders/gpu/soft.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const DEPTH_MAP: &str = include_str!("../../shaders/gpu/depth_map.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
@@ -69,18 +70,17 @@ const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
 
-/// The whole WGSL of a module for sets of so many 32-bit words.
-pub fn source(module: Module, words: SetWords) -> String {
+/// The whole WGSL of a module.
+pub fn source(module: Module, needs: &Needs) -> String {
     // Extensions are enabled ahead of everything else.
     let enable = match module {
         Module::Visibility => "enable primitive_index;\n",
         _ => "",
     };
-    let mut text =
-        format!("{enable}const WORDS: u32 = {}u;\nconst PART_WORDS: u32 = {}u;\n", words.lenses, words.parts);
+    let mut text = enable.to_string() + &needs.wgsl();
     text += crate::appearance::WGSL;
     text += COMMON;
-    for part in module.parts() {
+    for part in module.parts().iter().copied().flatten() {
         text += part;
     }
     text

@@ -66,12 +66,3 @@ fn check_stacks(opened: &Opened, frame: &Frame, expected: &Expected) -> Result<(
     }
     Ok(())
 }
-
-/// A case that needs what is not built yet must say so; once it renders, it must be compared.
-pub fn is_refused(path: &Path, words: &str) -> Result<(), String> {
-    match open_case(path) {
-        Ok(_) => Err(format!("{} can be planned now: take it off the list NOT_BUILT", stem(path))),
-        Err(refusal) if refusal.contains(words) => Ok(()),
-        Err(refusal) => Err(format!("refused, but not because something is {words}: {refusal}")),
-    }
-}

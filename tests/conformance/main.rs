@@ -21,9 +21,6 @@ use std::path::Path;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
-/// Cases that use what is not built yet, with words of the refusal. One that renders must leave this list.
-const NOT_BUILT: [(&str, &str); 3] =
-    [("compound", "not built yet"), ("mesh-lenses", "not built yet"), ("real-planet", "not built yet")];
 /// A folder with fewer is not the one that is meant.
 const LEAST_CASES: usize = 20;
 
@@ -47,12 +44,7 @@ fn trials(folder: &Path) -> Vec<Trial> {
     let mut trials = Vec::new();
     for path in specs {
         let name = case::stem(&path);
-        match NOT_BUILT.iter().find(|(other, _)| *other == name) {
-            Some((_, words)) => {
-                trials.push(trial(format!("{name}::not-built-yet"), move || case::is_refused(&path, words)))
-            }
-            None => trials.extend(backends(&name, &path)),
-        }
+        trials.extend(backends(&name, &path));
     }
     for path in case::specs(&folder.join("errors")) {
         trials.push(trial(format!("errors/{}", case::stem(&path)), move || refused::check(&path)));

@@ -1,0 +1,91 @@
+//! The pieces of instances as records, and how lenses move them.
+
+use glam::DAffine3;
+
+use super::draws::{Piece, shown_from_local};
+use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, StepRecord, extended, rows, words_of};
+use crate::plan::{Plan, Step};
+use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
+
+/// Records of all pieces, and the steps of their instances.
+#[derive(Debug, Clone, Default)]
+pub struct ItemData {
+    /// A record and its item's masks, for each piece.
+    pub items: Vec<u8>,
+    pub steps: Vec<StepRecord>,
+}
+
+impl ItemData {
+    /// `words`: of a set of lenses.
+    pub fn new(scene: &Scene, plan: &Plan, pieces: &[Piece], words: u32) -> Self {
+        let mut data = Self::default();
+        let mut first_steps = Vec::with_capacity(plan.instances.len());
+        for instance in &plan.instances {
+            first_steps.push(data.steps.len() as u32);
+            data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
+        }
+        for piece in pieces {
+            let item = piece.item;
+            let record = record(scene, plan, piece, first_steps[piece.instance]);
+            data.items.extend_from_slice(bytemuck::bytes_of(&record));
+            for mask in [item.scope, item.object, item.shown_by, item.removed_by, item.movers] {
+                words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
+            }
+            // Records start at multiples of 16 bytes.
+            data.items.resize(data.items.len().next_multiple_of(16), 0);
+        }
+        data
+    }
+}
+
+fn step_record(plan: &Plan, step: &Step) -> StepRecord {
+    let eye = DAffine3::from_translation(plan.view.eye);
+    let [row_x, row_y, row_z] = rows(&(eye.inverse() * step.source_from_shown * eye));
+    StepRecord { row_x, row_y, row_z, rank: step.rank as u32, pad: [0; 3] }
+}
+
+fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRecord {
+    let Piece { item, range, .. } = *piece;
+    let instance = piece.instance(plan);
+    let mut around = shown_from_local(scene, item, instance);
+    around.translation -= plan.view.eye;
+    let [row_x, row_y, row_z] = rows(&around);
+    // The rows of the inverse transposed are the columns of the inverse.
+    let normals = around.matrix3.inverse();
+    ItemRecord {
+        row_x,
+        row_y,
+        row_z,
+        normal_x: extended(normals.x_axis),
+        normal_y: extended(normals.y_axis),
+        normal_z: extended(normals.z_axis),
+        material: item.material as u32,
+        node: item.node as u32 + 1,
+        first_triangle: piece.key(),
+        flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 }
+            | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
+        first_index: range.first_index + 3 * piece.first_triangle,
+        base_vertex: range.base_vertex,
+        normals: range.normals,
+        tangents: range.tangents,
+        colors: range.colors,
+        uv0: range.uv[0],
+        uv1: range.uv[1],
+        slots: texture_slots(&scene.materials[item.material]),
+        center: (item.center - plan.view.eye).as_vec3().to_array(),
+        first_step,
+        step_count: instance.steps.len() as u32,
+    }
+}
+
+/// Which texture slots of a material are in use, in the order of the shaders' `SLOT_...`.
+fn texture_slots(material: &MaterialRecord) -> u32 {
+    let slots = [
+        &material.base_color_texture,
+        &material.metallic_roughness_texture,
+        &material.normal_texture,
+        &material.occlusion_texture,
+        &material.emissive_texture,
+    ];
+    (0..slots.len()).filter(|i| slots[*i].texture != NO_TEXTURE).map(|i| 1 << i).sum()
+}
