@@ -6,7 +6,6 @@ use lenspeel::cpu;
 use lenspeel::frame::Frame;
 use lenspeel::plan::LensSet;
 
-use crate::case::{Case, Filter};
 use crate::open::{Opened, open};
 use crate::oracle::Stack;
 
@@ -26,20 +25,6 @@ impl Party {
             Party::Gpu(lenspeel::gpu::Engine::Fused) => "fused",
             #[cfg(feature = "gpu")]
             Party::Gpu(lenspeel::gpu::Engine::Peel) => "peel",
-        }
-    }
-}
-
-impl Party {
-    /// Whether it draws all that a case asks for.
-    pub fn draws(self, case: &Case) -> bool {
-        let moves = |filter: &Filter| matches!(filter, Filter::Magnify { .. } | Filter::Displace { .. });
-        match self {
-            Party::Cpu => true,
-            #[cfg(feature = "gpu")]
-            Party::Gpu(_) => {
-                case.rules.is_empty() && case.lenses.iter().all(|l| l.soft == 0.0 && !l.filters.iter().any(moves))
-            }
         }
     }
 }

@@ -42,14 +42,9 @@ pub fn all(party: Party) -> Result<(), String> {
     let mut failures = Vec::new();
     let mut tally = Tally::default();
     let seeds = seeds();
-    let mut count = 0;
     for (index, seed) in seeds.iter().copied().enumerate() {
         let folder = folder(&format!("{}-{seed}", party.name()));
         let case = generate::case(seed);
-        if !party.draws(&case) {
-            continue;
-        }
-        count += 1;
         let answers = answers(index, seed);
         tally += answers.tally();
         match check(&files::write(&case, &folder), answers, party) {
@@ -57,7 +52,7 @@ pub fn all(party: Party) -> Result<(), String> {
             Err(difference) => failures.push(failure(seed, party, &folder, &difference)),
         }
     }
-    println!("{}: {count} cases of {}, {tally:?}", party.name(), seeds.len());
+    println!("{}: {} cases, {tally:?}", party.name(), seeds.len());
     if tally.doubtful * 2 > tally.pixels {
         failures.push(format!("{} of {} pixels are doubtful", tally.doubtful, tally.pixels));
     }
