@@ -72,6 +72,12 @@ impl Answers {
         }
     }
 
+    /// The most lenses around something visible, lowest first.
+    pub fn most_lenses(&self) -> Vec<usize> {
+        let sets = self.0.iter().filter_map(|(_, answer)| Some(&answer.as_ref()?.visible.as_ref()?.set));
+        sets.max_by_key(|set| set.len()).cloned().unwrap_or_default()
+    }
+
     /// The first pixel on which a picture differs, in words.
     pub fn difference(&self, picture: &Picture) -> Option<String> {
         self.0.iter().find_map(|([x, y], answer)| {

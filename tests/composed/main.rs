@@ -5,6 +5,7 @@
 
 mod case;
 mod check;
+mod controls;
 mod files;
 mod generate;
 #[path = "../support/gltf.rs"]
@@ -36,5 +37,8 @@ fn main() {
         let ignored = gpu::is_ignored();
         trials.extend(gpu::ENGINES.map(|(engine, _)| trial(Party::Gpu(engine)).with_ignored_flag(ignored)));
     }
+    trials.extend(controls::ALL.map(|control| {
+        Trial::test(format!("controls::{}", control.0), move || controls::run(control).map_err(Failed::from))
+    }));
     libtest_mimic::run(&arguments, trials).exit();
 }

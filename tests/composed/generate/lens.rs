@@ -2,18 +2,16 @@
 
 use glam::DVec3;
 
-use super::{Feature, filter, has, pick, point, rounded, shape, tidy};
+use super::{filter, pick, point, rounded, shape, tidy};
 use crate::case::{Attach, Case, Filter, Lens, Patterns, Rotation};
 use crate::oracle::matches;
 use crate::random::Random;
 
-/// At most so many filters of a case move content: each doubles the ways in which a triangle may be shown.
-const MOVERS: usize = 3;
 /// First letters of the names; patterns name all lenses of a letter.
 const LETTERS: [&str; 3] = ["a", "b", "c"];
 
-pub fn add(case: &mut Case, count: usize, random: &mut Random) {
-    let movers = if has(Feature::Movers) && random.chance(0.6) { 1 + random.index(MOVERS) } else { 0 };
+/// Adds so many lenses; so many filters of theirs move content.
+pub fn add(case: &mut Case, count: usize, movers: usize, random: &mut Random) {
     let moving: Vec<usize> = (0..movers).map(|_| random.index(count)).collect();
     for i in 0..count {
         let name = format!("{}{i}", pick(random, &LETTERS));
@@ -27,6 +25,12 @@ pub fn add(case: &mut Case, count: usize, random: &mut Random) {
         case.lenses.push(lens);
     }
     edges(case, random);
+}
+
+/// Makes a lens soft.
+pub fn fade_one(case: &mut Case, random: &mut Random) {
+    let lens = random.index(case.lenses.len());
+    case.lenses[lens].soft = tidy(random.between(0.02, 0.15));
 }
 
 fn lens(case: &Case, name: String, moves: bool, random: &mut Random) -> Lens {
@@ -56,7 +60,7 @@ fn lens(case: &Case, name: String, moves: bool, random: &mut Random) -> Lens {
         by_object: random.chance(0.15),
         only: patterns(limited, random),
         except: patterns(0.15, random),
-        soft: if has(Feature::Soft) && random.chance(0.12) { tidy(random.between(0.02, 0.15)) } else { 0.0 },
+        soft: if !case.solids.is_empty() && random.chance(0.1) { tidy(random.between(0.02, 0.15)) } else { 0.0 },
         glass: random.chance(0.04),
     }
 }

@@ -12,23 +12,11 @@ use glam::DVec3;
 use crate::case::{Camera, Case, Color, Projection};
 use crate::random::Random;
 
-/// What the product is asked for; the oracle knows all of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Feature {
-    Compounds,
-    Meshes,
-    Movers,
-    Rules,
-    Soft,
-}
-
-/// Features that cases may use.
-pub const ENABLED: &[Feature] = &[Feature::Compounds, Feature::Meshes, Feature::Movers, Feature::Rules, Feature::Soft];
-
-pub fn has(feature: Feature) -> bool {
-    ENABLED.contains(&feature)
-}
-
+/// One case of so many has nothing but lenses of one convex volume that change what is in its place; all others have
+/// every feature at least once. A GPU backend compiles shaders for what a case needs, and there is no time for all mixtures.
+const PLAIN: usize = 3;
+/// At most so many filters of a case move content: each doubles the ways in which a triangle may be shown.
+const MOVERS: usize = 3;
 /// Pixels of a picture.
 const SIZE: [u32; 2] = [64, 48];
 /// One case of so many has many lenses; its picture is smaller, for the engine that draws every layer by itself.
@@ -40,10 +28,11 @@ pub fn case(seed: u64) -> Case {
     // Seeds that follow each other start far apart.
     let mut random = Random::new(seed.wrapping_mul(0xd134_2543_de82_ef95));
     let random = &mut random;
+    let is_plain = random.index(PLAIN) == 0;
     let is_crowded = random.index(CROWDED) == 0;
     let mut case = Case {
         models: scene::models(random),
-        solids: if has(Feature::Meshes) { mesh::solids(random) } else { Vec::new() },
+        solids: if is_plain { Vec::new() } else { mesh::solids(random) },
         hide: scene::hidden(random),
         cull: random.chance(0.15),
         camera: camera(if is_crowded { CROWDED_SIZE } else { SIZE }, random),
@@ -52,8 +41,14 @@ pub fn case(seed: u64) -> Case {
         rules: Vec::new(),
     };
     let count = if is_crowded { CROWD } else { 2 + random.index(11) };
-    lens::add(&mut case, count, random);
-    if has(Feature::Rules) && random.chance(0.25) {
+    if is_plain {
+        lens::add(&mut case, count, 0, random);
+        return case;
+    }
+    let movers = 1 + random.index(MOVERS);
+    lens::add(&mut case, count, movers, random);
+    lens::fade_one(&mut case, random);
+    if random.chance(0.4) {
         rule::add(&mut case, random);
     }
     case

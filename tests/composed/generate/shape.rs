@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Feature, direction, has, pick, point, rounded, tidy};
+use super::{direction, pick, point, rounded, tidy};
 use crate::case::{Case, Compound, Convex, Rotation, Shape};
 use crate::random::Random;
 
@@ -18,13 +18,14 @@ pub fn shape(case: &Case, random: &mut Random) -> Shape {
     any(case, 0, random)
 }
 
+/// Compounds and meshes only in a case that has meshes to make lenses of.
 fn any(case: &Case, depth: usize, random: &mut Random) -> Shape {
-    if has(Feature::Compounds) && depth < DEPTH && random.chance(0.25) {
+    if !case.solids.is_empty() && depth < DEPTH && random.chance(0.25) {
         let kind = *pick(random, &[Compound::Union, Compound::Intersection, Compound::Difference]);
         let count = 2 + random.index(2);
         return Shape::Compound(kind, (0..count).map(|_| any(case, depth + 1, random)).collect());
     }
-    if has(Feature::Meshes) && random.chance(0.15) {
+    if !case.solids.is_empty() && random.chance(0.15) {
         return mesh(case, random);
     }
     simple(random)
