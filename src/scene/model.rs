@@ -306,20 +306,6 @@ impl Model {
         images.dedup();
         images
     }
-
-    /// A node's name, or `node N` where the file gives none.
-    pub fn node_label(&self, node: usize) -> String {
-        or_number(&self.nodes[node].name, "node", node)
-    }
-
-    /// A material's name, or `material N` where the file gives none.
-    pub fn material_label(&self, material: usize) -> String {
-        or_number(&self.materials[material].name, "material", material)
-    }
-}
-
-fn or_number(name: &str, kind: &str, number: usize) -> String {
-    if name.is_empty() { format!("{kind} {number}") } else { name.to_string() }
 }
 
 impl Primitive {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use glam::{DAffine3, DVec3};
 use lenspeel::lens::{Interval, LensMeshes, MeshForm, Placement, Volume, build_volume};
-use lenspeel::scene::{Mesh, Model, Node, Primitive};
+use lenspeel::scene::{Mesh, Model, Node, Primitive, Transform};
 use lenspeel::spec::{At, Convex, MeshShape, Rotation, Shape};
 use lenspeel::view::Ray;
 
@@ -26,6 +26,7 @@ pub fn model(triangles: &[Triangle]) -> Model {
         name: "solid".into(),
         parent: None,
         children: Vec::new(),
+        rest: Transform::IDENTITY,
         world_from_local: DAffine3::IDENTITY,
         mesh: Some(0),
         camera: None,
