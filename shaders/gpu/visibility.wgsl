@@ -71,13 +71,20 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
     return keep(in.item, triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
+// For `explain`: every fragment is listed, whatever the lenses make of it. Nothing is drawn.
+@fragment
+fn list(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+    let pixel = vec2u(in.position.xy);
+    let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
+    if hit.depth >= frame.near && hit.depth <= frame.far {
+        append(pixel, hit.depth, in.item, triangle);
+    }
+    return vec2u(0u);
+}
+
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
 fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> vec2u {
     let verdict = walk(item, ray, depth, inside);
-    if frame.list_all != 0u {
-        append(pixel, depth, item, triangle);
-        discard;
-    }
     if !verdict.displayed {
         discard;
     }

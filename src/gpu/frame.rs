@@ -53,7 +53,8 @@ pub struct FrameShape<'a> {
     pub tiles: &'a Tiles,
     pub fragment_capacity: u32,
     pub target_is_srgb: bool,
-    pub list_all: bool,
+    /// For accounts: the walk leaves nothing out.
+    pub whole_walk: bool,
 }
 
 impl FrameShape<'_> {
@@ -92,7 +93,7 @@ impl FrameShape<'_> {
             target_is_srgb: u32::from(self.target_is_srgb),
             lens_count: plan.lenses.len() as u32,
             rule_count: plan.rules.len() as u32,
-            list_all: u32::from(self.list_all),
+            whole_walk: u32::from(self.whole_walk),
             pad: 0,
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),

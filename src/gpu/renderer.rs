@@ -164,7 +164,7 @@ impl Renderer {
             tiles: &tiles,
             fragment_capacity: room.fragments.min(u64::from(u32::MAX)) as u32,
             target_is_srgb: self.store.target.is_srgb(),
-            list_all,
+            whole_walk: list_all,
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
         let counters = 4 * COUNTERS * samples.len() as u64;
@@ -310,7 +310,8 @@ impl Renderer {
 /// Which fragment function draws each item.
 fn program_of(engine: Engine, list_all: bool) -> impl Fn(&Draw) -> Program {
     move |draw| match engine {
-        Engine::Fused if draw.plain && !list_all => Program::Plain,
+        _ if list_all => Program::List,
+        Engine::Fused if draw.plain => Program::Plain,
         Engine::Fused => Program::Fused,
         Engine::Peel => Program::Peel,
     }
