@@ -157,7 +157,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             target_is_srgb,
             lens_count,
             rule_count,
-            whole_walk,
+            listed_pixel,
             by_pixel,
             translucent
         ]

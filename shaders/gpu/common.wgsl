@@ -58,8 +58,9 @@ struct Frame {
     // Overlap rules stand behind the lenses.
     lens_count: u32,
     rule_count: u32,
-    // Not 0: the walk goes on below a lens that takes a fragment elsewhere.
-    whole_walk: u32,
+    // For accounts of one pixel: its number in the window plus one; else 0. The walk then goes on below a lens that takes
+    // a fragment elsewhere.
+    listed_pixel: u32,
     pad: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,

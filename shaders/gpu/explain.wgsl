@@ -1,4 +1,4 @@
-// Every fragment on the ray of a window's one pixel, nearest first, classified and shaded. Twin of `explain.rs`.
+// Every fragment on the ray of one pixel, nearest first, classified and shaded. Twin of `explain.rs`.
 
 // For each fragment: instance, number of its triangle among all, depth, displayed, opacity, coverage, weights, normal,
 // then the words of the set and of the stack.
@@ -8,7 +8,8 @@ const REPORT_WORDS: u32 = 12u + 2u * WORDS;
 
 @compute @workgroup_size(1)
 fn explain() {
-    let pixel = vec2u(0u);
+    let number = frame.listed_pixel - 1u;
+    let pixel = vec2u(number % frame.window_size.x, number / frame.window_size.x);
     let ray = pixel_ray(pixel);
     let tile = tile_at(pixel);
     var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);

@@ -71,12 +71,13 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
     return keep(in.item, triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
-// For `explain`: every fragment is listed, whatever the lenses make of it. Nothing is drawn.
+// For `explain`: every fragment of one pixel is listed, whatever the lenses make of it. Nothing is drawn.
 @fragment
 fn list(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
     let pixel = vec2u(in.position.xy);
     let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
-    if hit.depth >= frame.near && hit.depth <= frame.far {
+    let is_listed = pixel.y * frame.window_size.x + pixel.x + 1u == frame.listed_pixel;
+    if is_listed && hit.depth >= frame.near && hit.depth <= frame.far {
         append(pixel, hit.depth, in.item, triangle);
     }
     return vec2u(0u);

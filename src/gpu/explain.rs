@@ -37,7 +37,7 @@ impl Headless {
         let window = Window { min: pixel, size: [1, 1] };
         let layers = self.layers(renderer, scene, plan, window)?.swap_remove(0);
         let mut report = PixelReport { layers, ..PixelReport::default() };
-        let found = self.fragments(renderer, scene, plan, window)?;
+        let found = self.fragments(renderer, scene, plan, pixel)?;
         for Found { survivor, normal, .. } in found.iter().filter(|f| f.displayed) {
             if !report.push(*survivor, *normal) {
                 break;
@@ -72,16 +72,18 @@ impl Headless {
         Ok(frame.aovs.and_then(|aovs| Pick::from_map(plan, &aovs, 0, pixel)))
     }
 
-    /// All fragments of a window of one pixel, nearest first.
+    /// All fragments of a pixel, nearest first.
     fn fragments(
         &self,
         renderer: &mut Renderer,
         scene: &Scene,
         plan: &Plan,
-        window: Window,
+        pixel: [u32; 2],
     ) -> Result<Vec<Found>, Error> {
+        let window = around(plan, pixel);
+        let number = window.place(pixel) as u32;
         loop {
-            let job = renderer.prepare_listing(&self.device, scene, plan, window)?;
+            let job = renderer.prepare_listing(&self.device, scene, plan, window, number)?;
             let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(Vec::new()) };
             let mut encoder = self.encoder();
             job.encode_layers(&mut encoder, sample);
@@ -110,6 +112,14 @@ impl Headless {
             return Ok(words.chunks_exact(stride).map(|words| found(plan, words)).collect());
         }
     }
+}
+
+/// The window whose fragments are drawn for one pixel's: some pixels more, for llvmpipe leaves out triangles that cover
+/// all of a smaller target when their fragments only write to storage.
+fn around(plan: &Plan, pixel: [u32; 2]) -> Window {
+    const SIDE: u32 = 32;
+    let min = pixel.map(|at| at - at % SIDE);
+    Window { min, size: [0, 1].map(|axis| SIDE.min(plan.view.size[axis] - min[axis])) }
 }
 
 fn found(plan: &Plan, words: &[u32]) -> Found {

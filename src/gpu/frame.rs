@@ -53,8 +53,8 @@ pub struct FrameShape<'a> {
     pub tiles: &'a Tiles,
     pub fragment_capacity: u32,
     pub target_is_srgb: bool,
-    /// For accounts: the walk leaves nothing out.
-    pub whole_walk: bool,
+    /// The number of the pixel in the window whose fragments are listed for an account.
+    pub listed: Option<u32>,
 }
 
 impl FrameShape<'_> {
@@ -93,7 +93,7 @@ impl FrameShape<'_> {
             target_is_srgb: u32::from(self.target_is_srgb),
             lens_count: plan.lenses.len() as u32,
             rule_count: plan.rules.len() as u32,
-            whole_walk: u32::from(self.whole_walk),
+            listed_pixel: self.listed.map_or(0, |pixel| pixel + 1),
             pad: 0,
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),

@@ -58,8 +58,8 @@ pub struct FrameRecord {
     pub target_is_srgb: u32,
     pub lens_count: u32,
     pub rule_count: u32,
-    /// Not 0: the walk goes on below a lens that takes a fragment elsewhere.
-    pub whole_walk: u32,
+    /// For accounts of one pixel: its number in the window plus one; else 0.
+    pub listed_pixel: u32,
     pub pad: u32,
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],

@@ -116,20 +116,21 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
-        self.prepare_frame(device, scene, plan, window, options, false)
+        self.prepare_frame(device, scene, plan, window, options, None)
     }
 
-    /// Prepares a frame that lists every fragment at the pixel centres, whatever the lenses make of it, and draws
-    /// nothing.
+    /// Prepares a frame that lists every fragment at the centre of one pixel of the window, by its number, whatever the
+    /// lenses make of it, and draws nothing.
     pub(super) fn prepare_listing(
         &mut self,
         device: &wgpu::Device,
         scene: &Scene,
         plan: &Plan,
         window: Window,
+        pixel: u32,
     ) -> Result<Job, Error> {
         let options = RenderOptions { aovs: true, ..RenderOptions::default() };
-        self.prepare_frame(device, scene, plan, window, options, true)
+        self.prepare_frame(device, scene, plan, window, options, Some(pixel))
     }
 
     /// What orders and shades the fragments of a frame that lists them, with room for so many bytes.
@@ -146,7 +147,7 @@ impl Renderer {
         plan: &Plan,
         window: Window,
         options: RenderOptions,
-        list_all: bool,
+        listed: Option<u32>,
     ) -> Result<Job, Error> {
         let needs = Needs::of(plan);
         let words = needs.set_words;
@@ -164,7 +165,7 @@ impl Renderer {
             tiles: &tiles,
             fragment_capacity: room.fragments.min(u64::from(u32::MAX)) as u32,
             target_is_srgb: self.store.target.is_srgb(),
-            whole_walk: list_all,
+            listed,
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
         let counters = 4 * COUNTERS * samples.len() as u64;
@@ -195,7 +196,7 @@ impl Renderer {
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, list_all), &pipelines),
+            draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, listed.is_some()), &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
