@@ -71,16 +71,19 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
     return keep(in.item, triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
-// For `explain`: every fragment of one pixel is listed, whatever the lenses make of it. Nothing is drawn.
+// For `explain`: the nearest fragment behind a given one, whatever the lenses make of it.
 @fragment
-fn list(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
-    let pixel = vec2u(in.position.xy);
-    let hit = surface_hit(pixel_ray(pixel), fetch_triangle(in.item, triangle));
-    let is_listed = pixel.y * frame.window_size.x + pixel.x + 1u == frame.listed_pixel;
-    if is_listed && hit.depth >= frame.near && hit.depth <= frame.far {
-        append(pixel, hit.depth, in.item, triangle);
+fn next_behind(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+    let hit = surface_hit(pixel_ray(vec2u(in.position.xy)), fetch_triangle(in.item, triangle));
+    if hit.depth < frame.near || hit.depth > frame.far {
+        discard;
     }
-    return vec2u(0u);
+    let is_behind = hit.depth > frame.after_depth
+        || (hit.depth == frame.after_depth && items[in.item].first_triangle + triangle > frame.after_key);
+    if !is_behind {
+        discard;
+    }
+    return vec2u(in.item + 1u, triangle);
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.

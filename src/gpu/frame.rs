@@ -53,8 +53,8 @@ pub struct FrameShape<'a> {
     pub tiles: &'a Tiles,
     pub fragment_capacity: u32,
     pub target_is_srgb: bool,
-    /// The number of the pixel in the window whose fragments are listed for an account.
-    pub listed: Option<u32>,
+    /// For accounts: the fragment of which the next one behind is looked for, by depth and number of its triangle.
+    pub after: Option<(f32, u32)>,
 }
 
 impl FrameShape<'_> {
@@ -93,8 +93,8 @@ impl FrameShape<'_> {
             target_is_srgb: u32::from(self.target_is_srgb),
             lens_count: plan.lenses.len() as u32,
             rule_count: plan.rules.len() as u32,
-            listed_pixel: self.listed.map_or(0, |pixel| pixel + 1),
-            pad: 0,
+            after_depth: self.after.map_or(0.0, |(depth, _)| depth),
+            after_key: self.after.map_or(u32::MAX, |(_, key)| key),
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

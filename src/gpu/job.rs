@@ -65,7 +65,7 @@ pub struct Groups {
     pub finish: wgpu::BindGroup,
 }
 
-/// Writes all fragments of one pixel into a buffer.
+/// Writes the fragment of one pixel into a buffer.
 #[derive(Debug)]
 pub struct ExplainPass {
     pub pipeline: wgpu::ComputePipeline,
@@ -137,10 +137,9 @@ impl Job {
         }
     }
 
-    /// Orders, classifies and shades the fragments that a sample has listed.
+    /// Classifies and shades the fragment that a sample has drawn at the window's one pixel.
     pub fn encode_explain(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, pass: &ExplainPass) {
-        let mut compute = self.begin_compute(encoder, sample, &pass.pipeline, &pass.group);
-        compute.dispatch_workgroups(1, 1, 1);
+        self.encode_pixels(encoder, sample, &pass.pipeline, &pass.group);
     }
 
     fn encode_pixels(
@@ -150,25 +149,14 @@ impl Job {
         pipeline: &wgpu::ComputePipeline,
         group: &wgpu::BindGroup,
     ) {
-        let [width, height] = self.window.size;
-        let mut pass = self.begin_compute(encoder, sample, pipeline, group);
-        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
-    }
-
-    fn begin_compute<'a>(
-        &self,
-        encoder: &'a mut wgpu::CommandEncoder,
-        sample: &Sample,
-        pipeline: &wgpu::ComputePipeline,
-        group: &wgpu::BindGroup,
-    ) -> wgpu::ComputePass<'a> {
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, group, &[]);
-        pass
+        let [width, height] = self.window.size;
+        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
     }
 
     /// Puts the mean of the samples over the background, into a target as large as the window.

@@ -18,8 +18,8 @@ pub enum Program {
     Plain,
     Fused,
     Peel,
-    /// Nothing is drawn, all is listed.
-    List,
+    /// For accounts of one pixel, fragment after fragment.
+    NextBehind,
 }
 
 impl Program {
@@ -28,7 +28,7 @@ impl Program {
             Program::Plain => "plain",
             Program::Fused => "fused",
             Program::Peel => "peel",
-            Program::List => "list",
+            Program::NextBehind => "next_behind",
         }
     }
 }
@@ -121,7 +121,7 @@ impl Pipelines {
         let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, &self.needs));
         let build = || {
             let layout = pipeline_layout(store, &store.layouts.visibility);
-            draw_pipeline(&store.device, module, &layout, program, culling)
+            draw_pipeline(&store.device, module, &layout, program.entry(), culling)
         };
         let mut kept = self.draws.lock().unwrap_or_else(PoisonError::into_inner);
         kept.entry((program, culling)).or_insert_with(build).clone()
@@ -178,11 +178,9 @@ fn draw_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
-    program: Program,
+    entry: &str,
     culling: Culling,
 ) -> wgpu::RenderPipeline {
-    let entry = program.entry();
-    let lists = program == Program::List;
     let attributes = wgpu::vertex_attr_array![0 => Float32x3];
     let front_face = if culling == Culling::BackMirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -206,8 +204,8 @@ fn draw_pipeline(
         // Reverse-Z; at equal depths what was drawn first stays in front.
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(!lists),
-            depth_compare: Some(if lists { wgpu::CompareFunction::Always } else { wgpu::CompareFunction::Greater }),
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: Default::default(),
             bias: Default::default(),
         }),
