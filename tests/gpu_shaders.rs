@@ -157,7 +157,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             target_is_srgb,
             lens_count,
             rule_count,
-            list_all,
+            after_depth,
+            after_key,
             by_pixel,
             translucent
         ]

@@ -58,9 +58,10 @@ struct Frame {
     // Overlap rules stand behind the lenses.
     lens_count: u32,
     rule_count: u32,
-    // Not 0: every fragment is listed, whatever the lenses make of it.
-    list_all: u32,
-    pad: u32,
+    // For accounts of one pixel: the fragment of which the next one behind is looked for, by depth and number of its
+    // triangle; else NONE. The walk then goes on below a lens that takes a fragment elsewhere.
+    after_depth: f32,
+    after_key: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,

@@ -1,41 +1,33 @@
-// Every fragment on the ray of a window's one pixel, nearest first, classified and shaded. Twin of `explain.rs`.
+// The fragment that is drawn at a window's one pixel, classified and shaded. Twin of `explain.rs`.
 
-// For each fragment: instance, number of its triangle among all, depth, displayed, opacity, coverage, weights, normal,
-// then the words of the set and of the stack.
+// Found, instance, number of its triangle among all, depth, displayed, opacity, coverage, weights, normal, then the words
+// of the set and of the stack.
 @group(2) @binding(4) var<storage, read_write> report: array<u32>;
-
-const REPORT_WORDS: u32 = 12u + 2u * WORDS;
 
 @compute @workgroup_size(1)
 fn explain() {
     let pixel = vec2u(0u);
     let ray = pixel_ray(pixel);
-    let tile = tile_at(pixel);
-    var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var at = 0u;
-    loop {
-        let pick = next_listed(pixel, last);
-        if !pick.found || at + REPORT_WORDS > arrayLength(&report) {
-            break;
-        }
-        last = pick;
-        let verdict = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth));
-        let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), ray);
-        let weights = surface_hit(ray, fetch_triangle(pick.item, pick.triangle)).weights;
-        report[at] = items[pick.item].instance;
-        report[at + 1u] = pick.key;
-        report[at + 2u] = bitcast<u32>(pick.depth);
-        report[at + 3u] = u32(verdict.displayed);
-        report[at + 4u] = bitcast<u32>(shaded.opacity);
-        report[at + 5u] = bitcast<u32>(shaded.coverage);
-        for (var i = 0u; i < 3u; i += 1u) {
-            report[at + 6u + i] = bitcast<u32>(weights[i]);
-            report[at + 9u + i] = bitcast<u32>(shaded.normal[i]);
-        }
-        for (var w = 0u; w < WORDS; w += 1u) {
-            report[at + 12u + w] = verdict.around.words[w];
-            report[at + 12u + WORDS + w] = verdict.stack.words[w];
-        }
-        at += REPORT_WORDS;
+    let pick = opaque_at(pixel, ray);
+    report[0] = u32(pick.found);
+    if !pick.found {
+        return;
+    }
+    let verdict = walk(pick.item, ray, pick.depth, set_at(tile_at(pixel), pixel, pick.depth));
+    let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), ray);
+    let weights = surface_hit(ray, fetch_triangle(pick.item, pick.triangle)).weights;
+    report[1] = items[pick.item].instance;
+    report[2] = pick.key;
+    report[3] = bitcast<u32>(pick.depth);
+    report[4] = u32(verdict.displayed);
+    report[5] = bitcast<u32>(shaded.opacity);
+    report[6] = bitcast<u32>(shaded.coverage);
+    for (var i = 0u; i < 3u; i += 1u) {
+        report[7u + i] = bitcast<u32>(weights[i]);
+        report[10u + i] = bitcast<u32>(shaded.normal[i]);
+    }
+    for (var w = 0u; w < WORDS; w += 1u) {
+        report[13u + w] = verdict.around.words[w];
+        report[13u + WORDS + w] = verdict.stack.words[w];
     }
 }

@@ -71,13 +71,24 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
     return keep(in.item, triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
+// For `explain`: the nearest fragment behind a given one, whatever the lenses make of it.
+@fragment
+fn next_behind(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+    let hit = surface_hit(pixel_ray(vec2u(in.position.xy)), fetch_triangle(in.item, triangle));
+    if hit.depth < frame.near || hit.depth > frame.far {
+        discard;
+    }
+    let is_behind = hit.depth > frame.after_depth
+        || (hit.depth == frame.after_depth && items[in.item].first_triangle + triangle > frame.after_key);
+    if !is_behind {
+        discard;
+    }
+    return vec2u(in.item + 1u, triangle);
+}
+
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
 fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> vec2u {
     let verdict = walk(item, ray, depth, inside);
-    if frame.list_all != 0u {
-        append(pixel, depth, item, triangle);
-        discard;
-    }
     if !verdict.displayed {
         discard;
     }

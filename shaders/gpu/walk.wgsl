@@ -67,7 +67,7 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
             if MOVERS && !shown && (movers & flag) != 0u {
                 if step == last_step || steps[step].rank != rank {
                     // It is seen elsewhere; only an account asks who else acts here.
-                    if frame.list_all == 0u {
+                    if frame.after_key == NONE {
                         return verdict;
                     }
                     removed = true;

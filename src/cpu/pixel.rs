@@ -24,7 +24,7 @@ use moved::MovedLayers;
 pub struct Tracer<'a> {
     scene: &'a Scene,
     plan: &'a Plan,
-    geometry: &'a [Geometry],
+    geometry: Vec<Geometry>,
     shader: Shader<'a>,
     reach: Reach,
     /// Lenses whose filters may make a fragment translucent.
@@ -46,7 +46,7 @@ pub struct Scratch {
 type Opaque = Option<Fragment>;
 
 impl<'a> Tracer<'a> {
-    pub fn new(scene: &'a Scene, plan: &'a Plan, geometry: &'a [Geometry]) -> Self {
+    pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
         let lenses = LensSet::below(plan.lenses.len());
         let shown = |content: usize| {
             let items = plan.items.iter().filter(|item| item.content == content);
@@ -61,7 +61,7 @@ impl<'a> Tracer<'a> {
         Self {
             scene,
             plan,
-            geometry,
+            geometry: Geometry::build_all(scene, plan),
             shader: Shader::new(scene, plan),
             reach: Reach::new(&plan.view),
             translucent: plan.translucent(),

@@ -3,7 +3,6 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
-use super::geometry::Geometry;
 use super::pixel::{Scratch, Tracer};
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, RegionTable};
@@ -18,9 +17,8 @@ const TILE: u32 = 16;
 
 /// Renders a plan over a scene. Holds the scene's acceleration structures.
 pub struct Renderer<'a> {
-    scene: &'a Scene,
     plan: &'a Plan,
-    geometry: Vec<Geometry>,
+    tracer: Tracer<'a>,
 }
 
 /// What is wanted of a picture.
@@ -45,7 +43,7 @@ struct Center {
 
 impl<'a> Renderer<'a> {
     pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
-        Self { scene, plan, geometry: Geometry::build_all(scene, plan) }
+        Self { plan, tracer: Tracer::new(scene, plan) }
     }
 
     /// The picture; with `aovs`, what lies at the centre of each pixel, too. `done` is called with the number of
@@ -80,11 +78,10 @@ impl<'a> Renderer<'a> {
     }
 
     fn tiles(&self, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Vec<TileResult> {
-        let tracer = self.tracer();
         tiles(self.plan.view.size)
             .into_par_iter()
             .map_init(Scratch::default, |scratch, rect| {
-                let result = self.tile(&tracer, rect, wanted, scratch);
+                let result = self.tile(rect, wanted, scratch);
                 done(rect.area());
                 result
             })
@@ -96,14 +93,14 @@ impl<'a> Renderer<'a> {
     pub fn explain(&self, x: u32, y: u32) -> PixelReport {
         let mut report = self.report(x, y);
         let end = report.visible.map_or(f32::INFINITY, |visible| visible.fragment.depth);
-        report.removed = self.tracer().removed(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks_at(x, y), end);
+        report.removed = self.tracer.removed(f64::from(x) + 0.5, f64::from(y) + 0.5, &self.ranks_at(x, y), end);
         report
     }
 
     /// The same without what lenses take away, as fast as rendering the pixel.
     pub fn report(&self, x: u32, y: u32) -> PixelReport {
         let (ranks, mut scratch) = (self.ranks_at(x, y), Scratch::default());
-        self.tracer().report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, &mut scratch)
+        self.tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, &mut scratch)
     }
 
     /// What is visible at a pixel; `None` where nothing is and outside the picture.
@@ -124,10 +121,6 @@ impl<'a> Renderer<'a> {
         (0..view.size[0]).map(layers).collect()
     }
 
-    fn tracer(&self) -> Tracer<'_> {
-        Tracer::new(self.scene, self.plan, &self.geometry)
-    }
-
     fn ranks_at(&self, x: u32, y: u32) -> Vec<usize> {
         self.ranks(&PixelRect { min: [x, y], max: [x + 1, y + 1] })
     }
@@ -136,7 +129,7 @@ impl<'a> Renderer<'a> {
         (0..self.plan.lenses.len()).filter(|rank| self.plan.lenses[*rank].rect.overlaps(rect)).collect()
     }
 
-    fn tile(&self, tracer: &Tracer, rect: PixelRect, wanted: Wanted, scratch: &mut Scratch) -> TileResult {
+    fn tile(&self, rect: PixelRect, wanted: Wanted, scratch: &mut Scratch) -> TileResult {
         let ranks = self.ranks(&rect);
         let side = f64::from(self.plan.samples).sqrt().round().max(1.0) as u32;
         let offset = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
@@ -145,12 +138,12 @@ impl<'a> Renderer<'a> {
             if wanted.colors {
                 let mut sum = Vec4::ZERO;
                 for (i, j) in (0..side).flat_map(|j| (0..side).map(move |i| (i, j))) {
-                    sum += tracer.color(f64::from(x) + offset(i), f64::from(y) + offset(j), &ranks, scratch);
+                    sum += self.tracer.color(f64::from(x) + offset(i), f64::from(y) + offset(j), &ranks, scratch);
                 }
                 result.pixels.push(self.finish(sum / (side * side) as f32));
             }
             if wanted.maps {
-                let report = tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, scratch);
+                let report = self.tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, scratch);
                 result.centers.push(Center { layers: report.layers.len() as u16, visible: report.visible });
             }
         }

@@ -88,5 +88,8 @@ pub fn region_lines(plan: &Plan, id: Option<usize>, region: &Region, share: &str
 
 /// A number of pixels in percent, as it stands behind an entry.
 pub fn share_text(pixels: usize, all: usize) -> String {
-    format!("  {:.1} %", 100.0 * pixels as f64 / all.max(1) as f64)
+    match 100.0 * pixels as f64 / all.max(1) as f64 {
+        percent if pixels > 0 && percent < 0.05 => "  < 0.1 %".into(),
+        percent => format!("  {percent:.1} %"),
+    }
 }

@@ -4,16 +4,14 @@ use glam::Vec3;
 
 use super::readback::Readback;
 use super::renderer::Renderer;
-use super::targets::FRAGMENT_BYTES;
-use super::upload::check_size;
-use super::{Error, Headless, RenderOptions, Room, Window};
+use super::{Error, Headless, RenderOptions, Window};
 use crate::pick::Pick;
 use crate::pixel::{Fragment, PixelReport, Removed, Survivor};
 use crate::plan::{LensSet, Plan, Region};
 use crate::scene::Scene;
 
-/// Words a fragment ahead of those of its set and its stack; `REPORT_WORDS` of `shaders/gpu/explain.wgsl`.
-const FIXED_WORDS: usize = 12;
+/// Words a fragment ahead of those of its set and its stack, as in `shaders/gpu/explain.wgsl`.
+const FIXED_WORDS: usize = 13;
 
 /// A fragment as the device reports it.
 struct Found {
@@ -72,7 +70,7 @@ impl Headless {
         Ok(frame.aovs.and_then(|aovs| Pick::from_map(plan, &aovs, 0, pixel)))
     }
 
-    /// All fragments of a window of one pixel, nearest first.
+    /// All fragments of a window of one pixel, nearest first: the scene is drawn once for each, and once more.
     fn fragments(
         &self,
         renderer: &mut Renderer,
@@ -80,35 +78,39 @@ impl Headless {
         plan: &Plan,
         window: Window,
     ) -> Result<Vec<Found>, Error> {
-        loop {
-            let job = renderer.prepare_listing(&self.device, scene, plan, window)?;
-            let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(Vec::new()) };
-            let mut encoder = self.encoder();
-            job.encode_layers(&mut encoder, sample);
-            job.encode_visibility(&mut encoder, sample);
-            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
-            self.queue.submit([encoder.finish()]);
-            let needed = Room::needed(&counts.bytes(&self.device)?);
-            self.check()?;
-            if !job.room.holds(needed) {
-                check_size(renderer.largest_buffer(), "the fragments of a pixel", needed.fragments * FRAGMENT_BYTES)?;
-                renderer.reserve(needed);
-                continue;
-            }
-            if needed.fragments == 0 {
-                return Ok(Vec::new());
-            }
-            let stride = FIXED_WORDS + 2 * job.words as usize;
-            let report = renderer.explain_pass(&self.device, &job, 4 * stride as u64 * needed.fragments)?;
-            let mut encoder = self.encoder();
-            job.encode_explain(&mut encoder, sample, &report);
-            let copy = Readback::of_buffer(&self.device, &mut encoder, &report.buffer);
-            self.queue.submit([encoder.finish()]);
-            let bytes = copy.bytes(&self.device)?;
-            self.check()?;
-            let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-            return Ok(words.chunks_exact(stride).map(|words| found(plan, words)).collect());
+        let mut all: Vec<Found> = Vec::new();
+        let mut after = (f32::MIN, 0);
+        while let Some(found) = self.next_behind(renderer, scene, plan, window, after)? {
+            let fragment = &found.survivor.fragment;
+            let item = &plan.items[plan.instances[fragment.instance as usize].item];
+            after = (fragment.depth, item.first_triangle + fragment.triangle);
+            all.push(found);
         }
+        Ok(all)
+    }
+
+    /// The nearest fragment behind one given by depth and number of its triangle.
+    fn next_behind(
+        &self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+        after: (f32, u32),
+    ) -> Result<Option<Found>, Error> {
+        let job = renderer.prepare_next_behind(&self.device, scene, plan, window, after)?;
+        let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(None) };
+        let pass = renderer.explain_pass(&self.device, &job, 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words)))?;
+        let mut encoder = self.encoder();
+        job.encode_layers(&mut encoder, sample);
+        job.encode_visibility(&mut encoder, sample);
+        job.encode_explain(&mut encoder, sample, &pass);
+        let copy = Readback::of_buffer(&self.device, &mut encoder, &pass.buffer);
+        self.queue.submit([encoder.finish()]);
+        let bytes = copy.bytes(&self.device)?;
+        self.check()?;
+        let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        Ok((words[0] != 0).then(|| found(plan, &words[..FIXED_WORDS + 2 * job.words as usize])))
     }
 }
 
@@ -116,17 +118,17 @@ fn found(plan: &Plan, words: &[u32]) -> Found {
     let (fixed, sets) = words.split_at(FIXED_WORDS);
     let [set, stack] = [0, 1].map(|i| LensSet::from_words(&sets[i * sets.len() / 2..][..sets.len() / 2]));
     let float = |at: usize| f32::from_bits(fixed[at]);
-    let instance = fixed[0];
+    let instance = fixed[1];
     let fragment = Fragment {
         instance,
-        triangle: fixed[1] - plan.items[plan.instances[instance as usize].item].first_triangle,
-        depth: float(2),
-        weights: Vec3::new(float(6), float(7), float(8)),
+        triangle: fixed[2] - plan.items[plan.instances[instance as usize].item].first_triangle,
+        depth: float(3),
+        weights: Vec3::new(float(7), float(8), float(9)),
         region: Region { set, stack },
     };
     Found {
-        survivor: Survivor { fragment, opacity: float(4), coverage: float(5) },
-        normal: Vec3::new(float(9), float(10), float(11)),
-        displayed: fixed[3] != 0,
+        survivor: Survivor { fragment, opacity: float(5), coverage: float(6) },
+        normal: Vec3::new(float(10), float(11), float(12)),
+        displayed: fixed[4] != 0,
     }
 }

@@ -53,7 +53,8 @@ pub struct FrameShape<'a> {
     pub tiles: &'a Tiles,
     pub fragment_capacity: u32,
     pub target_is_srgb: bool,
-    pub list_all: bool,
+    /// For accounts: the fragment of which the next one behind is looked for, by depth and number of its triangle.
+    pub after: Option<(f32, u32)>,
 }
 
 impl FrameShape<'_> {
@@ -92,8 +93,8 @@ impl FrameShape<'_> {
             target_is_srgb: u32::from(self.target_is_srgb),
             lens_count: plan.lenses.len() as u32,
             rule_count: plan.rules.len() as u32,
-            list_all: u32::from(self.list_all),
-            pad: 0,
+            after_depth: self.after.map_or(0.0, |(depth, _)| depth),
+            after_key: self.after.map_or(u32::MAX, |(_, key)| key),
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

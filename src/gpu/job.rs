@@ -65,7 +65,7 @@ pub struct Groups {
     pub finish: wgpu::BindGroup,
 }
 
-/// Writes all fragments of a window's one pixel into a buffer.
+/// Writes the fragment of one pixel into a buffer.
 #[derive(Debug)]
 pub struct ExplainPass {
     pub pipeline: wgpu::ComputePipeline,
@@ -137,7 +137,7 @@ impl Job {
         }
     }
 
-    /// Orders, classifies and shades the fragments that a sample has listed.
+    /// Classifies and shades the fragment that a sample has drawn at the window's one pixel.
     pub fn encode_explain(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, pass: &ExplainPass) {
         self.encode_pixels(encoder, sample, &pass.pipeline, &pass.group);
     }

@@ -18,6 +18,8 @@ pub enum Program {
     Plain,
     Fused,
     Peel,
+    /// For accounts of one pixel, fragment after fragment.
+    NextBehind,
 }
 
 impl Program {
@@ -26,6 +28,7 @@ impl Program {
             Program::Plain => "plain",
             Program::Fused => "fused",
             Program::Peel => "peel",
+            Program::NextBehind => "next_behind",
         }
     }
 }

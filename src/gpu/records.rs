@@ -58,9 +58,10 @@ pub struct FrameRecord {
     pub target_is_srgb: u32,
     pub lens_count: u32,
     pub rule_count: u32,
-    /// Not 0: every fragment is listed, whatever the lenses make of it.
-    pub list_all: u32,
-    pub pad: u32,
+    /// For accounts of one pixel: the fragment of which the next one behind is looked for.
+    pub after_depth: f32,
+    /// The number of its triangle among all; `u32::MAX` for pictures.
+    pub after_key: u32,
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }

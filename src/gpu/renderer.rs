@@ -116,25 +116,26 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
-        self.prepare_frame(device, scene, plan, window, options, false)
+        self.prepare_frame(device, scene, plan, window, options, None)
     }
 
-    /// Prepares a frame that lists every fragment at the pixel centres, whatever the lenses make of it, and draws
-    /// nothing.
-    pub(super) fn prepare_listing(
+    /// Prepares a frame that draws the nearest fragment behind one given by depth and number of its triangle, whatever
+    /// the lenses make of it.
+    pub(super) fn prepare_next_behind(
         &mut self,
         device: &wgpu::Device,
         scene: &Scene,
         plan: &Plan,
         window: Window,
+        after: (f32, u32),
     ) -> Result<Job, Error> {
         let options = RenderOptions { aovs: true, ..RenderOptions::default() };
-        self.prepare_frame(device, scene, plan, window, options, true)
+        self.prepare_frame(device, scene, plan, window, options, Some(after))
     }
 
-    /// What orders and shades the fragments of a frame that lists them, with room for so many bytes.
+    /// What classifies and shades the fragment of a frame of one pixel, into so many bytes.
     pub(super) fn explain_pass(&self, device: &wgpu::Device, job: &Job, bytes: u64) -> Result<ExplainPass, Error> {
-        let buffer = work_buffer(device, self.largest_buffer, "the fragments of a pixel", bytes)?;
+        let buffer = work_buffer(device, self.largest_buffer, "fragment of a pixel", bytes)?;
         let group = self.resolve_group(device, &job.targets, buffer.as_entire_binding());
         Ok(ExplainPass { pipeline: self.store.get(job.needs).explain(&self.store), group, buffer })
     }
@@ -146,7 +147,7 @@ impl Renderer {
         plan: &Plan,
         window: Window,
         options: RenderOptions,
-        list_all: bool,
+        after: Option<(f32, u32)>,
     ) -> Result<Job, Error> {
         let needs = Needs::of(plan);
         let words = needs.set_words;
@@ -164,7 +165,7 @@ impl Renderer {
             tiles: &tiles,
             fragment_capacity: room.fragments.min(u64::from(u32::MAX)) as u32,
             target_is_srgb: self.store.target.is_srgb(),
-            list_all,
+            after,
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
         let counters = 4 * COUNTERS * samples.len() as u64;
@@ -195,7 +196,7 @@ impl Renderer {
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, list_all), &pipelines),
+            draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, after.is_some()), &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             faces: (!depth_maps.vertices.is_empty())
@@ -308,9 +309,10 @@ impl Renderer {
 }
 
 /// Which fragment function draws each item.
-fn program_of(engine: Engine, list_all: bool) -> impl Fn(&Draw) -> Program {
+fn program_of(engine: Engine, next_behind: bool) -> impl Fn(&Draw) -> Program {
     move |draw| match engine {
-        Engine::Fused if draw.plain && !list_all => Program::Plain,
+        _ if next_behind => Program::NextBehind,
+        Engine::Fused if draw.plain => Program::Plain,
         Engine::Fused => Program::Fused,
         Engine::Peel => Program::Peel,
     }

@@ -143,7 +143,9 @@ fn one_pixel_is_explained_in_text_and_json() {
     let hidden = line_of("hides = [\"b\"]", "b", "c");
     let reasons =
         [format!("hidden: b, for c hides it ({hidden})"), format!("a < c: {}", line_of("hides = [\"a\"]", "a", "b"))];
-    for part in ["pixel 46,36: ", "a + b + c", "stack a < c", "<- visible", &reasons[0], &reasons[1]] {
+    for part in
+        ["pixel 46,36 of 96 x 72 (cpu): 7 layers", "a + b + c", "stack a < c", "<- visible", &reasons[0], &reasons[1]]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
     let pixel = explain_json(&["--pixel", "46,36"]);
