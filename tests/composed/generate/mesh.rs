@@ -63,7 +63,7 @@ fn ell() -> Vec<[f64; 2]> {
 /// A star about the origin with five points.
 fn star() -> Vec<[f64; 2]> {
     let corner = |i: usize| {
-        let (angle, radius) = (TAU * i as f64 / 10.0, if i % 2 == 0 { 1.0 } else { 0.45 });
+        let (angle, radius) = (TAU * i as f64 / 10.0, if i.is_multiple_of(2) { 1.0 } else { 0.45 });
         [radius * angle.cos(), radius * angle.sin()]
     };
     (0..10).map(corner).collect()
