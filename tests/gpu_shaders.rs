@@ -159,6 +159,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             rule_count,
             after_depth,
             after_key,
+            after_item,
             by_pixel,
             translucent
         ]

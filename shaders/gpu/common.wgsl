@@ -58,10 +58,14 @@ struct Frame {
     // Overlap rules stand behind the lenses.
     lens_count: u32,
     rule_count: u32,
-    // For accounts of one pixel: the fragment of which the next one behind is looked for, by depth and number of its
-    // triangle; else NONE. The walk then goes on below a lens that takes a fragment elsewhere.
+    // For accounts of one pixel: the fragment of which the next one behind is looked for, by depth, number of its
+    // triangle among all, and item; the number is NONE for pictures. The walk then goes on below a lens that takes a fragment elsewhere.
     after_depth: f32,
     after_key: u32,
+    after_item: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,

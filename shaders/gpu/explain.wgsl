@@ -1,7 +1,7 @@
 // The fragment that is drawn at a window's one pixel, classified and shaded. Twin of `explain.rs`.
 
-// Found, instance, number of its triangle among all, depth, displayed, opacity, coverage, weights, normal, then the words
-// of the set and of the stack.
+// Found, instance, number of its triangle among all, item, depth, displayed, opacity, coverage, weights, normal, then the
+// words of the set and of the stack.
 @group(2) @binding(4) var<storage, read_write> report: array<u32>;
 
 @compute @workgroup_size(1)
@@ -18,16 +18,17 @@ fn explain() {
     let weights = surface_hit(ray, fetch_triangle(pick.item, pick.triangle)).weights;
     report[1] = items[pick.item].instance;
     report[2] = pick.key;
-    report[3] = bitcast<u32>(pick.depth);
-    report[4] = u32(verdict.displayed);
-    report[5] = bitcast<u32>(shaded.opacity);
-    report[6] = bitcast<u32>(shaded.coverage);
+    report[3] = pick.item;
+    report[4] = bitcast<u32>(pick.depth);
+    report[5] = u32(verdict.displayed);
+    report[6] = bitcast<u32>(shaded.opacity);
+    report[7] = bitcast<u32>(shaded.coverage);
     for (var i = 0u; i < 3u; i += 1u) {
-        report[7u + i] = bitcast<u32>(weights[i]);
-        report[10u + i] = bitcast<u32>(shaded.normal[i]);
+        report[8u + i] = bitcast<u32>(weights[i]);
+        report[11u + i] = bitcast<u32>(shaded.normal[i]);
     }
     for (var w = 0u; w < WORDS; w += 1u) {
-        report[13u + w] = verdict.around.words[w];
-        report[13u + WORDS + w] = verdict.stack.words[w];
+        report[14u + w] = verdict.around.words[w];
+        report[14u + WORDS + w] = verdict.stack.words[w];
     }
 }

@@ -78,9 +78,9 @@ fn next_behind(in: Varying, @builtin(primitive_index) triangle: u32) -> @locatio
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
-    let is_behind = hit.depth > frame.after_depth
-        || (hit.depth == frame.after_depth && items[in.item].first_triangle + triangle > frame.after_key);
-    if !is_behind {
+    let key = items[in.item].first_triangle + triangle;
+    let is_later = key > frame.after_key || (key == frame.after_key && in.item > frame.after_item);
+    if hit.depth < frame.after_depth || (hit.depth == frame.after_depth && !is_later) {
         discard;
     }
     return vec2u(in.item + 1u, triangle);

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::frame::Place;
 use super::readback::Readback;
 use super::renderer::Renderer;
 use super::{Error, Headless, RenderOptions, Window};
@@ -11,10 +12,11 @@ use crate::plan::{LensSet, Plan, Region};
 use crate::scene::Scene;
 
 /// Words a fragment ahead of those of its set and its stack, as in `shaders/gpu/explain.wgsl`.
-const FIXED_WORDS: usize = 13;
+const FIXED_WORDS: usize = 14;
 
 /// A fragment as the device reports it.
 struct Found {
+    place: Place,
     survivor: Survivor,
     normal: Vec3,
     displayed: bool,
@@ -79,24 +81,22 @@ impl Headless {
         window: Window,
     ) -> Result<Vec<Found>, Error> {
         let mut all: Vec<Found> = Vec::new();
-        let mut after = (f32::MIN, 0);
+        let mut after = Place::FIRST;
         while let Some(found) = self.next_behind(renderer, scene, plan, window, after)? {
-            let fragment = &found.survivor.fragment;
-            let item = &plan.items[plan.instances[fragment.instance as usize].item];
-            after = (fragment.depth, item.first_triangle + fragment.triangle);
+            after = found.place;
             all.push(found);
         }
         Ok(all)
     }
 
-    /// The nearest fragment behind one given by depth and number of its triangle.
+    /// The nearest fragment behind a place.
     fn next_behind(
         &self,
         renderer: &mut Renderer,
         scene: &Scene,
         plan: &Plan,
         window: Window,
-        after: (f32, u32),
+        after: Place,
     ) -> Result<Option<Found>, Error> {
         let job = renderer.prepare_next_behind(&self.device, scene, plan, window, after)?;
         let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(None) };
@@ -122,13 +122,14 @@ fn found(plan: &Plan, words: &[u32]) -> Found {
     let fragment = Fragment {
         instance,
         triangle: fixed[2] - plan.items[plan.instances[instance as usize].item].first_triangle,
-        depth: float(3),
-        weights: Vec3::new(float(7), float(8), float(9)),
+        depth: float(4),
+        weights: Vec3::new(float(8), float(9), float(10)),
         region: Region { set, stack },
     };
     Found {
-        survivor: Survivor { fragment, opacity: float(5), coverage: float(6) },
-        normal: Vec3::new(float(10), float(11), float(12)),
-        displayed: fixed[4] != 0,
+        place: Place { depth: fragment.depth, key: fixed[2], item: fixed[3] },
+        survivor: Survivor { fragment, opacity: float(6), coverage: float(7) },
+        normal: Vec3::new(float(11), float(12), float(13)),
+        displayed: fixed[5] != 0,
     }
 }

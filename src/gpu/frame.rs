@@ -20,6 +20,21 @@ pub struct Sample {
     pub maps: bool,
 }
 
+/// Where a fragment stands among all of its ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    pub depth: f32,
+    /// The number of its triangle among all.
+    pub key: u32,
+    /// The number of its record.
+    pub item: u32,
+}
+
+impl Place {
+    /// Before all fragments.
+    pub const FIRST: Place = Place { depth: f32::MIN, key: 0, item: 0 };
+}
+
 /// The samples of a plan: a square grid and, when maps are asked for, the pixel's centre.
 pub fn samples(plan: &Plan, aovs: bool) -> Vec<Sample> {
     let side = f64::from(plan.samples).sqrt().round().max(1.0) as u32;
@@ -53,8 +68,8 @@ pub struct FrameShape<'a> {
     pub tiles: &'a Tiles,
     pub fragment_capacity: u32,
     pub target_is_srgb: bool,
-    /// For accounts: the fragment of which the next one behind is looked for, by depth and number of its triangle.
-    pub after: Option<(f32, u32)>,
+    /// For accounts: the fragment of which the next one behind is looked for.
+    pub after: Option<Place>,
 }
 
 impl FrameShape<'_> {
@@ -93,8 +108,10 @@ impl FrameShape<'_> {
             target_is_srgb: u32::from(self.target_is_srgb),
             lens_count: plan.lenses.len() as u32,
             rule_count: plan.rules.len() as u32,
-            after_depth: self.after.map_or(0.0, |(depth, _)| depth),
-            after_key: self.after.map_or(u32::MAX, |(_, key)| key),
+            after_depth: self.after.map_or(0.0, |place| place.depth),
+            after_key: self.after.map_or(u32::MAX, |place| place.key),
+            after_item: self.after.map_or(0, |place| place.item),
+            pad: [0; 3],
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

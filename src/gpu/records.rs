@@ -62,6 +62,9 @@ pub struct FrameRecord {
     pub after_depth: f32,
     /// The number of its triangle among all; `u32::MAX` for pictures.
     pub after_key: u32,
+    /// The number of its record.
+    pub after_item: u32,
+    pub pad: [u32; 3],
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }

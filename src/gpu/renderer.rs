@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::bindings;
 use super::depth_maps::DepthMaps;
 use super::draws::{self, Draw, Piece};
-use super::frame::{self, FrameShape, Sample};
+use super::frame::{self, FrameShape, Place, Sample};
 use super::item_data::ItemData;
 use super::job::{ComputeSteps, ExplainPass, Faces, Groups, Job};
 use super::lens_data::LensData;
@@ -119,15 +119,14 @@ impl Renderer {
         self.prepare_frame(device, scene, plan, window, options, None)
     }
 
-    /// Prepares a frame that draws the nearest fragment behind one given by depth and number of its triangle, whatever
-    /// the lenses make of it.
+    /// Prepares a frame that draws the nearest fragment behind a place, whatever the lenses make of it.
     pub(super) fn prepare_next_behind(
         &mut self,
         device: &wgpu::Device,
         scene: &Scene,
         plan: &Plan,
         window: Window,
-        after: (f32, u32),
+        after: Place,
     ) -> Result<Job, Error> {
         let options = RenderOptions { aovs: true, ..RenderOptions::default() };
         self.prepare_frame(device, scene, plan, window, options, Some(after))
@@ -147,7 +146,7 @@ impl Renderer {
         plan: &Plan,
         window: Window,
         options: RenderOptions,
-        after: Option<(f32, u32)>,
+        after: Option<Place>,
     ) -> Result<Job, Error> {
         let needs = Needs::of(plan);
         let words = needs.set_words;
