@@ -1,6 +1,5 @@
 //! Many cases, one after the other; a failure is made small and written where it can be run again.
 
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::case::Case;
@@ -14,15 +13,21 @@ use crate::{files, generate};
 const CASES: u64 = 40;
 const CASES_ON_GPU: u64 = 6;
 
-/// The seeds to run for a party, from `LENSPEEL_COMPOSED_SEED` on.
-fn seeds(party: Party) -> Range<u64> {
+/// The seeds to run for a party, from `LENSPEEL_COMPOSED_SEED` on; those that need the same shaders one after the other,
+/// for a software GPU keeps only a few.
+fn seeds(party: Party) -> Vec<u64> {
     let number = |name: &str| {
         let text = std::env::var(name).ok()?;
         Some(text.parse::<u64>().unwrap_or_else(|_| panic!("{name} must be a whole number, not `{text}`")))
     };
     let first = number("LENSPEEL_COMPOSED_SEED").unwrap_or(0);
     let usual = if matches!(party, Party::Cpu) { CASES } else { CASES_ON_GPU };
-    first..first + number("LENSPEEL_COMPOSED_CASES").unwrap_or(usual)
+    let mut seeds: Vec<u64> = (first..first + number("LENSPEEL_COMPOSED_CASES").unwrap_or(usual)).collect();
+    seeds.sort_by_cached_key(|seed| {
+        let case = generate::case(*seed);
+        (case.lenses.len() > 12, !case.solids.is_empty())
+    });
+    seeds
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -34,7 +39,7 @@ pub fn all(party: Party) -> Result<(), String> {
     let mut failures = Vec::new();
     let mut tally = Tally::default();
     let seeds = seeds(party);
-    for seed in seeds.clone() {
+    for seed in seeds.iter().copied() {
         let folder = folder(&format!("{}-{seed}", party.name()));
         let case = generate::case(seed);
         let answers = Answers::new(&case, seed);
@@ -44,7 +49,7 @@ pub fn all(party: Party) -> Result<(), String> {
             Err(difference) => failures.push(failure(seed, party, &folder, &difference)),
         }
     }
-    println!("{}: {} cases, {tally:?}", party.name(), seeds.end - seeds.start);
+    println!("{}: {} cases, {tally:?}", party.name(), seeds.len());
     if tally.doubtful * 2 > tally.pixels {
         failures.push(format!("{} of {} pixels are doubtful", tally.doubtful, tally.pixels));
     }
