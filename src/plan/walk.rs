@@ -78,6 +78,7 @@ impl Plan {
     /// Those of a stack that take an instance away from a point where they act, as [`Verdict::removed_by`] has it; `None`
     /// where that is not to be told: an instance that lenses move is told of where it is seen, not where it might have
     /// been, and what no lens shows is not there.
+    #[cfg(feature = "gpu")]
     pub(crate) fn removers(&self, instance: &Instance, stack: LensSet) -> Option<LensSet> {
         let item = &self.items[instance.item];
         let (mut removers, mut shown, mut steps) = (LensSet::EMPTY, false, 0);
