@@ -8,7 +8,7 @@ use crate::product::Party;
 use crate::{files, generate};
 
 /// Seeds that are looked at, and how many of them must have what is changed.
-const SEEDS: u64 = 40;
+const SEEDS: u64 = 80;
 const LEAST: usize = 5;
 
 /// What is changed in a case before the oracle reads it; `false` where there is nothing to change, or nothing of it seen.
