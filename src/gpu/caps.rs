@@ -91,6 +91,16 @@ pub fn required_features() -> wgpu::Features {
     wgpu::Features::PRIMITIVE_INDEX
 }
 
+/// Times on the device between the stages of a frame, where an adapter has both.
+pub const TIMESTAMPS: wgpu::Features =
+    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+
+/// What is asked of an adapter: what every one must have, and timestamps where it has them.
+pub fn requested_features(adapter: &wgpu::Adapter) -> wgpu::Features {
+    let timestamps = if adapter.features().contains(TIMESTAMPS) { TIMESTAMPS } else { wgpu::Features::empty() };
+    required_features() | timestamps
+}
+
 fn missing_feature(adapter: &wgpu::Adapter) -> Option<String> {
     let missing = required_features() - adapter.features();
     (!missing.is_empty()).then(|| format!("{missing:?}"))
