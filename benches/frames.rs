@@ -1,89 +1,105 @@
-//! What lenses cost: ratios to the same frame without a lens, from one interleaved run.
+//! What lenses cost, as ratios from one interleaved run, against lenspeel without a lens and against other ways to
+//! draw the same pictures.
 //!
-//! `cargo bench --bench frames` renders a surface of a million triangles at 1280x720, one sample a pixel, on the
-//! best adapter there is. Every round renders each case once, in turn, so that a drift of the machine's speed
-//! touches all of them; the table gives medians. See `benches/README.md`.
+//! `cargo bench --bench frames` draws a surface of a million triangles at 1280x720, one sample a pixel, on the best
+//! adapter there is; `-- NAME` only the rows whose names hold NAME; `--rounds N`, `--size WxH` and `--json` as their
+//! names say. See `benches/README.md`.
 
+mod balls;
+mod baselines;
+mod contenders;
+mod lens_sets;
+mod rows;
 mod support;
 
-use std::time::Instant;
+use std::process::ExitCode;
 
-use lenspeel::gpu::{Engine, Headless, RenderOptions, Renderer, choose_named};
-use lenspeel::plan::Plan;
-use lenspeel::scene::Scene;
+use lenspeel::bench::{Case, Verdict, interleaved, json, text};
+use lenspeel::gpu::choose_named;
 
-use support::{spec, surface};
+use contenders::Field;
 
-const ROUNDS: usize = 7;
-
-struct Case {
+/// The arguments behind `--`.
+struct Args {
+    rounds: usize,
+    size: [u32; 2],
+    json: bool,
     name: String,
-    engine: Engine,
-    plan: Plan,
-    seconds: Vec<f64>,
 }
 
-fn main() {
-    let adapter = match choose_named(None) {
-        Ok(adapter) => adapter,
-        Err(error) => {
-            println!("no benchmark: {error}");
-            return;
+fn main() -> ExitCode {
+    match Args::parse(std::env::args().skip(1)).and_then(|args| run(&args)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
         }
-    };
-    println!("{}", adapter.reason);
-    let device = Headless::new(&adapter).expect("the chosen adapter opens");
-    let scene = Scene::new(vec![surface()], Vec::new());
-    let mut renderer = device.renderer(&scene).expect("the scene fits the device");
-    let mut cases = cases(&scene);
-    // One round to compile pipelines and to fill caches.
-    for round in 0..=ROUNDS {
-        for case in &mut cases {
-            let seconds = frame(&device, &mut renderer, &scene, case);
-            if round > 0 {
-                case.seconds.push(seconds);
+    }
+}
+
+fn run(args: &Args) -> Result<(), String> {
+    let cases: Vec<Case> = rows::rows().into_iter().filter(|case| case.name.contains(&args.name)).collect();
+    if cases.is_empty() {
+        return Err(format!("no row is named like `{}`", args.name));
+    }
+    let adapter = choose_named(None).map_err(|error| error.to_string())?;
+    eprintln!("{}", adapter.reason);
+    let field = Field::new(&adapter, args.size)?;
+    let mut names: Vec<&str> = Vec::new();
+    for name in cases.iter().flat_map(|case| [case.to.as_str(), case.of.as_str()]) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let mut contenders = Vec::new();
+    for name in names {
+        contenders.extend(field.contender(name)?);
+    }
+    let progress = |round| eprintln!("round {round} of {}", args.rounds);
+    let measured = interleaved(&mut contenders, args.rounds, progress)?;
+    let verdicts: Vec<Verdict> = cases.iter().filter_map(|case| Verdict::new(case, &measured)).collect();
+    let missing: Vec<&str> = field.left_out();
+    if args.json {
+        let mut all = json(&verdicts, &measured);
+        all["adapter"] = adapter.reason.as_str().into();
+        all["size"] = serde_json::json!(args.size);
+        all["left_out"] = serde_json::json!(missing);
+        println!("{all:#}");
+        return Ok(());
+    }
+    println!("{}, {}x{}, {} rounds\n", adapter.reason, args.size[0], args.size[1], args.rounds);
+    print!("{}", text(&verdicts, &measured));
+    for why in missing {
+        println!("\nleft out: {why}");
+    }
+    Ok(())
+}
+
+impl Args {
+    fn parse(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
+        let mut args = Self { rounds: 7, size: [1280, 720], json: false, name: String::new() };
+        while let Some(word) = words.next() {
+            let mut value = || words.next().ok_or(format!("{word} needs a value"));
+            match word.as_str() {
+                // Cargo says so to every benchmark.
+                "--bench" => {}
+                "--json" => args.json = true,
+                "--rounds" => {
+                    let rounds = value()?.parse().ok().filter(|rounds| *rounds > 0);
+                    args.rounds = rounds.ok_or("--rounds needs a number from 1 on")?;
+                }
+                "--size" => {
+                    let text = value()?;
+                    let sides = text.split_once('x').map(|(w, h)| (w.parse(), h.parse()));
+                    let Some((Ok(width), Ok(height))) = sides else {
+                        return Err("--size needs WIDTHxHEIGHT, as in 1280x720".into());
+                    };
+                    args.size = [width, height];
+                }
+                flag if flag.starts_with('-') => return Err(format!("there is no {flag}")),
+                name => args.name = name.into(),
             }
         }
+        Ok(args)
     }
-    table(&cases);
-}
-
-fn frame(device: &Headless, renderer: &mut Renderer, scene: &Scene, case: &Case) -> f64 {
-    let options = RenderOptions { engine: case.engine, aovs: false };
-    let start = Instant::now();
-    device.render_with(renderer, scene, &case.plan, options, &mut None).expect("the frame fits the device");
-    start.elapsed().as_secs_f64()
-}
-
-fn table(cases: &[Case]) {
-    let median = |case: &Case| {
-        let mut sorted = case.seconds.clone();
-        sorted.sort_by(f64::total_cmp);
-        sorted[sorted.len() / 2]
-    };
-    let plain = median(&cases[0]);
-    println!("| case | median ms | ratio to no lens |\n|---|---|---|");
-    for case in cases {
-        println!("| {} | {:.0} | {:.2} |", case.name, median(case) * 1e3, median(case) / plain);
-    }
-}
-
-fn cases(scene: &Scene) -> Vec<Case> {
-    let mut cases = Vec::new();
-    let mut add = |name: &str, engine: Engine, lenses: usize, filters: &str| {
-        let spec = spec(lenses, filters);
-        let plan = Plan::new(&spec, scene).expect("the specs of the benchmark are valid");
-        let engine_name = if engine == Engine::Fused { "fused" } else { "peel" };
-        let name = if lenses == 0 { name.to_string() } else { format!("{name}, `{engine_name}`") };
-        cases.push(Case { name, engine, plan, seconds: Vec::new() });
-    };
-    add("no lens", Engine::Fused, 0, "");
-    for (filters, name) in [("\"invert\"", "invert"), ("\"erase\"", "erase"), ("\"wireframe\"", "wireframe")] {
-        add(&format!("1 lens, {name}"), Engine::Fused, 1, filters);
-    }
-    add("4 lenses, invert", Engine::Fused, 4, "\"invert\"");
-    add("8 lenses, invert", Engine::Fused, 8, "\"invert\"");
-    add("1 lens, invert", Engine::Peel, 1, "\"invert\"");
-    add("4 lenses, invert", Engine::Peel, 4, "\"invert\"");
-    cases
 }
