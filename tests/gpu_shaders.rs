@@ -26,7 +26,7 @@ fn parsed(module: Module, needs: Needs) -> naga::Module {
 fn validated(module: Module, needs: Needs) -> (naga::Module, naga::valid::ModuleInfo) {
     let parsed = parsed(module, needs);
     let mut validator =
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::PRIMITIVE_INDEX);
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
     let info = validator
         .validate(&parsed)
         .unwrap_or_else(|e| panic!("{}: {}", module.name(), e.emit_to_string(&source(module, &needs))));
@@ -190,7 +190,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             slots,
             center,
             first_step,
-            step_count
+            step_count,
+            first_vertex
         ]
     );
     // Five masks of two words each follow, then padding to 16 bytes.

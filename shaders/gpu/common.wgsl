@@ -110,6 +110,8 @@ struct Item {
     // How its rays are moved, in `steps`.
     first_step: u32,
     step_count: u32,
+    // The vertex at which its first triangle starts, of all vertices.
+    first_vertex: u32,
     masks: array<u32, 5u * WORDS>,
 }
 

@@ -56,7 +56,6 @@ impl Headless {
         let adapter = &choice.adapter;
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lenspeel"),
-            required_features: caps::required_features(),
             required_limits: caps::required_limits(&adapter.limits()),
             ..Default::default()
         });

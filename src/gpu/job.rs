@@ -27,6 +27,7 @@ pub struct Job {
     pub record_stride: u32,
     pub draws: Vec<(Draw, wgpu::RenderPipeline)>,
     pub positions: wgpu::Buffer,
+    pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub faces: Option<Faces>,
     pub compute: ComputeSteps,
@@ -115,6 +116,7 @@ impl Job {
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(2, &self.groups.visibility, &[]);
         pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_vertex_buffer(1, self.items.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for layer in (0..self.passes).rev() {
             pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);

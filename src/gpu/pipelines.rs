@@ -1,11 +1,14 @@
 //! Compiled pipelines.
 
 use std::collections::BTreeMap;
+use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::bindings::Layouts;
 use super::depth_maps::FaceVertex;
 use super::draws::Culling;
+use super::item_data::item_stride;
+use super::records::ItemRecord;
 use super::{Module, Needs, source};
 
 /// Formats of what the visibility pass draws into.
@@ -121,7 +124,7 @@ impl Pipelines {
         let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, &self.needs));
         let build = || {
             let layout = pipeline_layout(store, &store.layouts.visibility);
-            draw_pipeline(&store.device, module, &layout, program.entry(), culling)
+            draw_pipeline(&store.device, module, &layout, program.entry(), culling, item_stride(self.needs.set_words))
         };
         let mut kept = self.draws.lock().unwrap_or_else(PoisonError::into_inner);
         kept.entry((program, culling)).or_insert_with(build).clone()
@@ -180,8 +183,21 @@ fn draw_pipeline(
     layout: &wgpu::PipelineLayout,
     entry: &str,
     culling: Culling,
+    item_stride: u64,
 ) -> wgpu::RenderPipeline {
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3];
+    let corner = wgpu::vertex_attr_array![0 => Float32x3];
+    let field = |shader_location, format, offset: usize| wgpu::VertexAttribute {
+        shader_location,
+        format,
+        offset: offset as u64,
+    };
+    // An attribute of the whole draw: a software adapter reads it once, where it would look a record up for each vertex.
+    let shown = [
+        field(1, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_x)),
+        field(2, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_y)),
+        field(3, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_z)),
+        field(4, wgpu::VertexFormat::Uint32, offset_of!(ItemRecord, first_vertex)),
+    ];
     let front_face = if culling == Culling::BackMirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(entry),
@@ -190,11 +206,18 @@ fn draw_pipeline(
             module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: 12,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &attributes,
-            })],
+            buffers: &[
+                Some(wgpu::VertexBufferLayout {
+                    array_stride: 12,
+                    step_mode: wgpu::VertexStepMode::Vertex,
+                    attributes: &corner,
+                }),
+                Some(wgpu::VertexBufferLayout {
+                    array_stride: item_stride,
+                    step_mode: wgpu::VertexStepMode::Instance,
+                    attributes: &shown,
+                }),
+            ],
         },
         primitive: wgpu::PrimitiveState {
             front_face,

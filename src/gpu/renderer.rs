@@ -10,7 +10,7 @@ use super::item_data::ItemData;
 use super::job::{ComputeSteps, ExplainPass, Faces, Groups, Job};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
-use super::plan_group::{PlanContents, plan_buffer};
+use super::plan_group::{PlanContents, PlanGroup, plan_buffer};
 use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
@@ -174,7 +174,7 @@ impl Renderer {
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
         let pieces = draws::pieces(scene, plan, &self.scene);
-        let plan_group = PlanContents {
+        let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
             items: &ItemData::new(scene, plan, &pieces, words),
@@ -182,7 +182,7 @@ impl Renderer {
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
-        let groups = self.groups(device, plan_group, &targets, &needed, maps.as_ref());
+        let groups = self.groups(device, group, &targets, &needed, maps.as_ref());
         let pipelines = self.store.get(needs);
         Ok(Job {
             needs,
@@ -198,6 +198,7 @@ impl Renderer {
             draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, after.is_some()), &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
+            items,
             faces: (!depth_maps.vertices.is_empty())
                 .then(|| self.faces(device, &depth_maps, &pipelines))
                 .transpose()?,

@@ -83,12 +83,7 @@ const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
 
 /// The whole WGSL of a module.
 pub fn source(module: Module, needs: &Needs) -> String {
-    // Extensions are enabled ahead of everything else.
-    let enable = match module {
-        Module::Visibility => "enable primitive_index;\n",
-        _ => "",
-    };
-    let mut text = enable.to_string() + &needs.wgsl();
+    let mut text = needs.wgsl();
     text += crate::appearance::WGSL;
     text += COMMON;
     for part in module.parts().iter().copied().flatten() {
