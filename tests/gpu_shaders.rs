@@ -11,9 +11,29 @@ use naga::{Handle, ShaderStage, Type, TypeInner};
 
 /// A plan that needs little, one of two words, and the most that there can be.
 const NEEDS: [Needs; 3] = [LITTLE, TWO_WORDS, MOST];
-const LITTLE: Needs = Needs { set_words: 1, part_words: 1, compounds: false, movers: false, soft: false };
-const TWO_WORDS: Needs = Needs { set_words: 2, ..LITTLE };
-const MOST: Needs = Needs { set_words: 12, part_words: 3, compounds: true, movers: true, soft: true };
+const LITTLE: Needs = Needs {
+    set_words: 1,
+    part_words: 1,
+    lenses: false,
+    compounds: false,
+    movers: false,
+    soft: false,
+    glass: false,
+    translucent: false,
+    textures: false,
+};
+const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
+const MOST: Needs = Needs {
+    set_words: 12,
+    part_words: 3,
+    lenses: true,
+    compounds: true,
+    movers: true,
+    soft: true,
+    glass: true,
+    translucent: true,
+    textures: true,
+};
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 18;
 

@@ -38,7 +38,6 @@ pub struct Timings {
     pub layers: f64,
     pub visibility: f64,
     pub resolve: f64,
-    pub finish: f64,
     pub readback: f64,
 }
 
@@ -212,9 +211,8 @@ impl Headless {
         for sample in &job.samples {
             stages.run(|t| &mut t.layers, |e| job.encode_layers(e, sample))?;
             stages.run(|t| &mut t.visibility, |e| job.encode_visibility(e, sample))?;
-            stages.run(|t| &mut t.resolve, |e| job.encode_resolve(e, sample))?;
+            stages.run(|t| &mut t.resolve, |e| job.encode_resolve(e, sample, &view))?;
         }
-        stages.run(|t| &mut t.finish, |e| job.encode_finish(e, &view))?;
         stages.end()?;
         let start = Instant::now();
         let mut encoder = self.encoder();

@@ -64,10 +64,9 @@ pub struct Pipelines {
     needs: Needs,
     depth_map: OnceLock<wgpu::RenderPipeline>,
     layers: OnceLock<wgpu::ComputePipeline>,
-    resolve: OnceLock<wgpu::ComputePipeline>,
+    resolve: OnceLock<wgpu::RenderPipeline>,
     aov: OnceLock<wgpu::ComputePipeline>,
     explain: OnceLock<wgpu::ComputePipeline>,
-    finish: OnceLock<wgpu::RenderPipeline>,
     visibility: OnceLock<wgpu::ShaderModule>,
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
 }
@@ -81,7 +80,6 @@ impl Pipelines {
             resolve: OnceLock::new(),
             aov: OnceLock::new(),
             explain: OnceLock::new(),
-            finish: OnceLock::new(),
             visibility: OnceLock::new(),
             draws: Mutex::default(),
         }
@@ -99,8 +97,13 @@ impl Pipelines {
         self.compute(&self.layers, store, Module::Layers, &store.layouts.layers, "find_layers")
     }
 
-    pub fn resolve(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.resolve, store, Module::Resolve, &store.layouts.resolve, "resolve")
+    pub fn resolve(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        let build = || {
+            let module = compile(&store.device, Module::Resolve, &self.needs);
+            let layout = pipeline_layout(store, &store.layouts.resolve);
+            resolve_pipeline(&store.device, &module, &layout, store.target)
+        };
+        self.resolve.get_or_init(build).clone()
     }
 
     pub fn aov(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
@@ -109,15 +112,6 @@ impl Pipelines {
 
     pub fn explain(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
         self.compute(&self.explain, store, Module::Explain, &store.layouts.resolve, "explain")
-    }
-
-    pub fn finish(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        let build = || {
-            let module = compile(&store.device, Module::Finish, &self.needs);
-            let layout = pipeline_layout(store, &store.layouts.finish);
-            finish_pipeline(&store.device, &module, &layout, store.target)
-        };
-        self.finish.get_or_init(build).clone()
     }
 
     pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
@@ -281,27 +275,27 @@ fn depth_map_pipeline(
     })
 }
 
-fn finish_pipeline(
+fn resolve_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
     target: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("finish"),
+        label: Some("resolve"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some("whole_target"),
+            entry_point: Some("tile_vertex"),
             compilation_options: Default::default(),
             buffers: &[],
         },
-        primitive: Default::default(),
+        primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
         depth_stencil: None,
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some("finish"),
+            entry_point: Some("resolve"),
             compilation_options: Default::default(),
             targets: &[Some(target.into())],
         }),
