@@ -11,9 +11,29 @@ use naga::{Handle, ShaderStage, Type, TypeInner};
 
 /// A plan that needs little, one of two words, and the most that there can be.
 const NEEDS: [Needs; 3] = [LITTLE, TWO_WORDS, MOST];
-const LITTLE: Needs = Needs { set_words: 1, part_words: 1, compounds: false, movers: false, soft: false };
-const TWO_WORDS: Needs = Needs { set_words: 2, ..LITTLE };
-const MOST: Needs = Needs { set_words: 12, part_words: 3, compounds: true, movers: true, soft: true };
+const LITTLE: Needs = Needs {
+    set_words: 1,
+    part_words: 1,
+    lenses: false,
+    compounds: false,
+    movers: false,
+    soft: false,
+    glass: false,
+    translucent: false,
+    textures: false,
+};
+const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
+const MOST: Needs = Needs {
+    set_words: 12,
+    part_words: 3,
+    lenses: true,
+    compounds: true,
+    movers: true,
+    soft: true,
+    glass: true,
+    translucent: true,
+    textures: true,
+};
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 18;
 
@@ -26,7 +46,7 @@ fn parsed(module: Module, needs: Needs) -> naga::Module {
 fn validated(module: Module, needs: Needs) -> (naga::Module, naga::valid::ModuleInfo) {
     let parsed = parsed(module, needs);
     let mut validator =
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::PRIMITIVE_INDEX);
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
     let info = validator
         .validate(&parsed)
         .unwrap_or_else(|e| panic!("{}: {}", module.name(), e.emit_to_string(&source(module, &needs))));
@@ -190,7 +210,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             slots,
             center,
             first_step,
-            step_count
+            step_count,
+            first_vertex
         ]
     );
     // Five masks of two words each follow, then padding to 16 bytes.

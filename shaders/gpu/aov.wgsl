@@ -25,7 +25,7 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
         }
         last = pick;
         let fragment = classified(pick, tile, pixel, ray);
-        let shaded = shade(fragment, ray);
+        let shaded = shade(fragment, meeting(fragment.item, fragment.triangle, ray), ray);
         if shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
             continue;
         }

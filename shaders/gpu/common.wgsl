@@ -1,7 +1,8 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
 // Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, and
-// `PART_WORDS`, that of a set of one lens's parts; whether some lens has several parts or a mesh (`COMPOUNDS`), moves
-// content (`MOVERS`) or is soft (`SOFT`).
+// `PART_WORDS`, that of a set of one lens's parts; and flags, see `Needs`: whether there are lenses or rules (`LENSES`),
+// some lens has several parts or a mesh (`COMPOUNDS`), moves content (`MOVERS`), is soft (`SOFT`) or has a surface
+// (`GLASS`), something may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`).
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
@@ -110,6 +111,8 @@ struct Item {
     // How its rays are moved, in `steps`.
     first_step: u32,
     step_count: u32,
+    // The vertex at which its first triangle starts, of all vertices.
+    first_vertex: u32,
     masks: array<u32, 5u * WORDS>,
 }
 
@@ -268,7 +271,8 @@ struct TextureInfo {
 @group(1) @binding(6) var<storage, read> lens_words: array<u32>;
 @group(1) @binding(7) var<storage, read> ops: array<Op>;
 @group(1) @binding(8) var<storage, read> lights: array<Light>;
-// Four words a tile (see `TileRecord`), then the tiles that lenses touch, then their lists of parts.
+// Four words a tile (see `TileRecord`), then the numbers of all tiles, first of those that lenses touch, then the lists
+// of parts.
 @group(1) @binding(9) var<storage, read> tiles: array<u32>;
 
 struct TileRecord {
@@ -287,6 +291,20 @@ fn tile_columns() -> u32 {
 fn tile_record(tile: u32) -> TileRecord {
     let at = 4u * tile;
     return TileRecord(tiles[at], tiles[at + 1u], tiles[at + 2u], tiles[at + 3u]);
+}
+
+fn tile_rows() -> u32 {
+    return (frame.window_size.y + TILE - 1u) / TILE;
+}
+
+// Of all tiles, first those that lenses touch.
+fn tile_in_order(index: u32) -> u32 {
+    return tiles[4u * tile_columns() * tile_rows() + index];
+}
+
+// The pixel in a tile's top left corner.
+fn tile_corner(tile: u32) -> vec2u {
+    return vec2u(tile % tile_columns(), tile / tile_columns()) * TILE;
 }
 
 // The tile of a pixel of the window.

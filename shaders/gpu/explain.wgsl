@@ -14,8 +14,9 @@ fn explain() {
         return;
     }
     let verdict = walk(pick.item, ray, pick.depth, set_at(tile_at(pixel), pixel, pick.depth));
-    let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), ray);
-    let weights = surface_hit(ray, fetch_triangle(pick.item, pick.triangle)).weights;
+    let met = meeting(pick.item, pick.triangle, ray);
+    let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), met, ray);
+    let weights = met.hit.weights;
     report[1] = items[pick.item].instance;
     report[2] = pick.key;
     report[3] = pick.item;

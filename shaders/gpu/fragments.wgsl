@@ -28,8 +28,7 @@ fn opaque_at(pixel: vec2u, ray: PixelRay) -> Pick {
         return nothing();
     }
     let item = seen.x - 1u;
-    let hit = surface_hit(ray, fetch_triangle(item, seen.y));
-    return Pick(hit.depth, items[item].first_triangle + seen.y, item, seen.y, true);
+    return Pick(meeting(item, seen.y, ray).hit.depth, items[item].first_triangle + seen.y, item, seen.y, true);
 }
 
 // The nearest listed fragment behind `after`.
@@ -49,6 +48,12 @@ fn next_listed(pixel: vec2u, after: Pick) -> Pick {
 
 // The nearest fragment behind `after`; the opaque one is the last.
 fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
+    if !TRANSLUCENT {
+        if is_before(after, opaque) {
+            return opaque;
+        }
+        return nothing();
+    }
     let listed = next_listed(pixel, after);
     if !opaque.found || is_before(listed, opaque) {
         return listed;
@@ -60,6 +65,9 @@ fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
 }
 
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {
+    if !LENSES {
+        return Fragment(pick.item, pick.triangle, pick.depth, Set(), Set());
+    }
     let verdict = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth));
     return Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack);
 }

@@ -29,6 +29,17 @@ fn fetch_triangle(item: u32, triangle: u32) -> Triangle {
     );
 }
 
+// Where a pixel's ray meets a triangle of an item.
+struct Meeting {
+    triangle: Triangle,
+    hit: TriangleHit,
+}
+
+fn meeting(item: u32, triangle: u32, ray: PixelRay) -> Meeting {
+    let t = fetch_triangle(item, triangle);
+    return Meeting(t, surface_hit(ray, t));
+}
+
 // The hit of a ray with a triangle that it is known to meet. Seen nearly edge on, the depth stays within the corners'.
 fn surface_hit(ray: PixelRay, t: Triangle) -> TriangleHit {
     var hit = triangle_hit(ray.origin, ray.direction, t.a, t.b, t.c);

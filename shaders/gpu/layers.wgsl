@@ -152,11 +152,9 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
     if index >= frame.active_tiles {
         return;
     }
-    let columns = tile_columns();
-    let rows = (frame.window_size.y + TILE - 1u) / TILE;
-    let number = tiles[4u * columns * rows + index];
+    let number = tile_in_order(index);
     let tile = tile_record(number);
-    let pixel = vec2u(number % columns, number / columns) * TILE + local.xy;
+    let pixel = tile_corner(number) + local.xy;
     if any(pixel >= frame.window_size) {
         return;
     }

@@ -1,28 +1,40 @@
-// Composites each pixel's fragments and lens surfaces front to back, exactly, however many there are.
+// Composites each pixel's fragments and lens surfaces front to back, exactly, however many there are, and puts the mean
+// of the samples over the background, as straight alpha in sRGB.
 
-// Premultiplied linear colour, summed over the samples.
+// Premultiplied linear colour, summed over the samples; only where there are several.
 @group(2) @binding(4) var<storage, read_write> accumulated: array<vec4f>;
+
+// A corner of a tile: those that lenses touch, and the others, are drawn by shaders that can do no more than they need.
+@vertex
+fn tile_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> @builtin(position) vec4f {
+    let corner = tile_corner(tile_in_order(index)) + vec2u(vertex & 1u, vertex >> 1u) * TILE;
+    let at = vec2f(corner) / vec2f(frame.window_size);
+    return vec4f(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y, 0.0, 1.0);
+}
 
 fn composited(pixel: vec2u) -> vec4f {
     let ray = pixel_ray(pixel);
-    let at = lens_ray(sample_point(pixel));
     let tile = tile_at(pixel);
+    if !TRANSLUCENT && !GLASS {
+        return opaque_color(tile, pixel, ray);
+    }
+    let at = lens_ray(sample_point(pixel));
     let opaque = opaque_at(pixel, ray);
     var front = vec4f(0.0);
     var pick = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
     var glass = no_glass(-FAR_AWAY, 0u);
     var needs_pick = true;
-    var needs_glass = true;
+    var needs_glass = GLASS;
     loop {
         if needs_pick {
             pick = next_fragment(pixel, opaque, pick);
         }
-        if needs_glass {
+        if GLASS && needs_glass {
             glass = next_glass(tile, pixel, glass);
         }
         needs_glass = glass.found && glass.depth < pick.depth;
         needs_pick = !needs_glass;
-        if needs_glass {
+        if GLASS && needs_glass {
             let color = glass_color(glass, at, ray);
             front = over(front, color.rgb, color.a);
             continue;
@@ -30,7 +42,8 @@ fn composited(pixel: vec2u) -> vec4f {
         if !pick.found {
             break;
         }
-        let shaded = shade(classified(pick, tile, pixel, ray), ray);
+        let met = meeting(pick.item, pick.triangle, ray);
+        let shaded = shade(classified(pick, tile, pixel, ray), met, ray);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);
         if opacity >= OPAQUE_FROM {
@@ -40,15 +53,43 @@ fn composited(pixel: vec2u) -> vec4f {
     return front;
 }
 
-@compute @workgroup_size(8, 8)
-fn resolve(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= frame.window_size) {
-        return;
+// The same where nothing is seen through anything: one fragment at the most, met once.
+fn opaque_color(tile: TileRecord, pixel: vec2u, ray: PixelRay) -> vec4f {
+    let seen = textureLoad(visibility, vec2i(pixel), 0);
+    if seen.x == 0u {
+        return vec4f(0.0);
     }
-    let at = id.y * frame.window_size.x + id.x;
-    var sum = composited(id.xy);
-    if frame.sample_index > 0u {
-        sum += accumulated[at];
+    let met = meeting(seen.x - 1u, seen.y, ray);
+    let pick = Pick(met.hit.depth, 0u, seen.x - 1u, seen.y, true);
+    let shaded = shade(classified(pick, tile, pixel, ray), met, ray);
+    return over(vec4f(0.0), shaded.color, shaded.opacity * shaded.coverage);
+}
+
+@fragment
+fn resolve(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(position.xy);
+    var sum = composited(pixel);
+    if frame.samples > 1u {
+        let at = pixel.y * frame.window_size.x + pixel.x;
+        if frame.sample_index > 0u {
+            sum += accumulated[at];
+        }
+        accumulated[at] = sum;
     }
-    accumulated[at] = sum;
+    // Of several samples the last one draws the picture.
+    return finished(sum / f32(frame.samples));
+}
+
+fn finished(front: vec4f) -> vec4f {
+    let back = vec4f(frame.background.rgb, 1.0) * frame.background.a;
+    let sum = front + back * (1.0 - front.a);
+    if sum.a <= 0.0 {
+        return vec4f(0.0);
+    }
+    let straight = sum.rgb / sum.a;
+    if frame.target_is_srgb != 0u {
+        return vec4f(straight, sum.a);
+    }
+    let encoded = vec3f(srgb_from_linear(straight.x), srgb_from_linear(straight.y), srgb_from_linear(straight.z));
+    return vec4f(encoded, sum.a);
 }

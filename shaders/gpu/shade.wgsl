@@ -88,7 +88,7 @@ fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view
         );
         normal = normalize_or(turned, geometric);
     }
-    if (items[item].slots & (1u << SLOT_NORMAL)) != 0u {
+    if TEXTURES && (items[item].slots & (1u << SLOT_NORMAL)) != 0u {
         var tangent = vec4f(0.0);
         if items[item].tangents != NONE {
             let along = interpolated4(items[item].tangents, t.corners, weights);
@@ -150,8 +150,8 @@ fn material_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> 
     let geometric = normalize_or(cross(t.b - t.a, t.c - t.a), vec3f(0.0));
     // White where there is no texture. One loop over all slots in use, so that the reading stands here once.
     var texels = array<vec4f, 5>(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
-    var slots = items[item].slots;
-    while slots != 0u {
+    var slots = select(0u, items[item].slots, TEXTURES);
+    while TEXTURES && slots != 0u {
         let slot = firstTrailingBit(slots);
         slots = slots & (slots - 1u);
         let uv = slot_uv(item, t.corners, materials[m].slots[slot]);
@@ -190,11 +190,14 @@ fn lit(s: Surface) -> vec3f {
     return sum;
 }
 
-// Runs the stack on a fragment that a pixel's ray has met: surface filters, lighting once, colour filters, coverage.
-fn shade(f: Fragment, ray: PixelRay) -> ShadedFragment {
-    let t = fetch_triangle(f.item, f.triangle);
-    let weights = surface_hit(ray, t).weights;
+// Runs the stack on a fragment where a pixel's ray meets it: surface filters, lighting once, colour filters, coverage.
+fn shade(f: Fragment, at: Meeting, ray: PixelRay) -> ShadedFragment {
+    let t = at.triangle;
+    let weights = at.hit.weights;
     var surface = material_surface(f, t, weights, ray);
+    if !LENSES {
+        return ShadedFragment(emitted(surface, lit(surface)), surface_opacity(surface), 1.0, surface.normal);
+    }
     var shaded = Shaded(vec3f(0.0), 0.0, 1.0);
     // Bit s: some filter of the stack acts in stage s.
     var stages = 1u << STAGE_SURFACE;
@@ -213,7 +216,7 @@ fn shade(f: Fragment, ray: PixelRay) -> ShadedFragment {
                     stages |= 1u << op_stage(ops[i].kind);
                     if stage == STAGE_SURFACE {
                         var texel = vec4f(1.0);
-                        if ops[i].kind == OP_TEXTURE {
+                        if TEXTURES && ops[i].kind == OP_TEXTURE {
                             let read = filter_read(ops[i], rank, f.item, t, weights, surface, ray);
                             texel = sample_texture(read.texture, read.uv, read.footprint);
                         }

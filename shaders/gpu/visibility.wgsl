@@ -11,11 +11,27 @@
 struct Varying {
     @invariant @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) item: u32,
+    // Within the item's.
+    @location(1) @interpolate(flat) triangle: u32,
+}
+
+// Some fields of the record of an `Item`.
+struct Shown {
+    @location(1) row_x: vec4f,
+    @location(2) row_y: vec4f,
+    @location(3) row_z: vec4f,
+    @location(4) first_vertex: u32,
 }
 
 @vertex
-fn vertex(@location(0) local: vec3f, @builtin(instance_index) item: u32) -> Varying {
-    let p = to_eye(item, local);
+fn vertex(
+    @location(0) local: vec3f,
+    shown: Shown,
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) item: u32,
+) -> Varying {
+    let at = vec4f(local, 1.0);
+    let p = vec3f(dot(shown.row_x, at), dot(shown.row_y, at), dot(shown.row_z, at));
     let depth = dot(p, frame.forward.xyz);
     // Reverse-Z: infinite far plane in perspective, linear otherwise.
     var clip = vec4f(dot(p, frame.right.xyz), dot(p, frame.up.xyz), frame.near, depth);
@@ -24,31 +40,32 @@ fn vertex(@location(0) local: vec3f, @builtin(instance_index) item: u32) -> Vary
         clip.w = 1.0;
     }
     let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
-    return Varying(vec4f(moved, clip.zw), item);
+    // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
+    return Varying(vec4f(moved, clip.zw), item, vertex - shown.first_vertex);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.
 @fragment
-fn plain(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
-    return vec2u(in.item + 1u, triangle);
+fn plain(in: Varying) -> @location(0) vec2u {
+    return vec2u(in.item + 1u, in.triangle);
 }
 
 // `fused`: the fragment finds its layer, its region and its stack itself.
 @fragment
-fn fused(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+fn fused(in: Varying) -> @location(0) vec2u {
     let pixel = vec2u(in.position.xy);
     let tile = tile_at(pixel);
     let ray = pixel_ray(pixel);
-    let hit = surface_hit(ray, fetch_triangle(in.item, triangle));
+    let hit = surface_hit(ray, fetch_triangle(in.item, in.triangle));
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
-    return keep(in.item, triangle, pixel, ray, hit.depth, set_at(tile, pixel, hit.depth));
+    return keep(in.item, in.triangle, pixel, ray, hit.depth, set_at(tile, pixel, hit.depth));
 }
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
 @fragment
-fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
+fn peel(in: Varying) -> @location(0) vec2u {
     let pixel = vec2u(in.position.xy);
     let tile = tile_at(pixel);
     let count = layer_count(tile, pixel);
@@ -56,34 +73,34 @@ fn peel(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) ve
         discard;
     }
     let ray = pixel_ray(pixel);
-    let hit = surface_hit(ray, fetch_triangle(in.item, triangle));
+    let hit = surface_hit(ray, fetch_triangle(in.item, in.triangle));
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
     if tile.part_count == 0u {
-        return keep(in.item, triangle, pixel, ray, hit.depth, Set());
+        return keep(in.item, in.triangle, pixel, ray, hit.depth, Set());
     }
     let at = layers_at(tile, pixel);
     let next = frame.layer + 1u;
     if !is_begun(at, frame.layer, hit.depth) || (next < count && is_begun(at, next, hit.depth)) {
         discard;
     }
-    return keep(in.item, triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
+    return keep(in.item, in.triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
 // For `explain`: the nearest fragment behind a given one, whatever the lenses make of it.
 @fragment
-fn next_behind(in: Varying, @builtin(primitive_index) triangle: u32) -> @location(0) vec2u {
-    let hit = surface_hit(pixel_ray(vec2u(in.position.xy)), fetch_triangle(in.item, triangle));
+fn next_behind(in: Varying) -> @location(0) vec2u {
+    let hit = surface_hit(pixel_ray(vec2u(in.position.xy)), fetch_triangle(in.item, in.triangle));
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
-    let key = items[in.item].first_triangle + triangle;
+    let key = items[in.item].first_triangle + in.triangle;
     let is_later = key > frame.after_key || (key == frame.after_key && in.item > frame.after_item);
     if hit.depth < frame.after_depth || (hit.depth == frame.after_depth && !is_later) {
         discard;
     }
-    return vec2u(in.item + 1u, triangle);
+    return vec2u(in.item + 1u, in.triangle);
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.

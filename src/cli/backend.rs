@@ -179,7 +179,6 @@ fn on_gpu(
             ("layers", t.layers),
             ("visibility", t.visibility),
             ("resolve", t.resolve),
-            ("finish", t.finish),
             ("readback", t.readback),
         ] {
             stages.note(name, seconds);

@@ -8,7 +8,6 @@ pub struct Layouts {
     pub layers: wgpu::BindGroupLayout,
     pub visibility: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
-    pub finish: wgpu::BindGroupLayout,
 }
 
 /// What a binding holds.
@@ -39,8 +38,7 @@ impl Layouts {
             plan: layout(device, "plan", everywhere, &plan),
             layers: layout(device, "layers", compute | fragment, &[ReadWrite, ReadWrite]),
             visibility: layout(device, "visibility", fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
-            resolve: layout(device, "resolve", compute, &[Read, Read, Read, IdTexture, ReadWrite]),
-            finish: layout(device, "finish", fragment, &[Read]),
+            resolve: layout(device, "resolve", compute | fragment, &[Read, Read, Read, IdTexture, ReadWrite]),
         }
     }
 }

@@ -35,7 +35,7 @@ fn is_hardware(adapter: &wgpu::Adapter) -> bool {
 /// The adapter for `auto`: real hardware that can do what is needed, else an error that says what there is.
 pub fn choose_hardware() -> Result<AdapterChoice, Error> {
     let found = adapters();
-    match found.iter().find(|adapter| is_hardware(adapter) && missing_feature(adapter).is_none()) {
+    match found.iter().find(|adapter| is_hardware(adapter) && lacking(adapter).is_none()) {
         Some(adapter) => Ok(chosen(adapter, "it is a hardware adapter")),
         None => Err(Error::NoAdapter { wanted: " that is hardware".into(), found: names(&found) }),
     }
@@ -51,8 +51,8 @@ pub fn choose_named(name: Option<&str>) -> Result<AdapterChoice, Error> {
         let wanted = name.map(|n| format!(" named `{n}`")).unwrap_or_default();
         return Err(Error::NoAdapter { wanted, found: names(&found) });
     };
-    if let Some(feature) = missing_feature(adapter) {
-        return Err(Error::MissingFeature { adapter: describe(adapter), feature });
+    if let Some(what) = lacking(adapter) {
+        return Err(Error::Lacking { adapter: describe(adapter), what });
     }
     let reason = match (name, is_hardware(adapter)) {
         (Some(_), _) => "it was asked for by name",
@@ -84,26 +84,23 @@ pub fn describe(adapter: &wgpu::Adapter) -> String {
     format!("{} ({kind}, {}, {})", info.name, info.backend, info.driver_info)
 }
 
-/// What every adapter must have.
-///
-/// `PRIMITIVE_INDEX`: a pixel of the visibility pass names its triangle; shading reads all else from buffers.
-pub fn required_features() -> wgpu::Features {
-    wgpu::Features::PRIMITIVE_INDEX
-}
-
 /// Times on the device between the stages of a frame, where an adapter has both.
 pub const TIMESTAMPS: wgpu::Features =
     wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// What is asked of an adapter: what every one must have, and timestamps where it has them.
-pub fn requested_features(adapter: &wgpu::Adapter) -> wgpu::Features {
-    let timestamps = if adapter.features().contains(TIMESTAMPS) { TIMESTAMPS } else { wgpu::Features::empty() };
-    required_features() | timestamps
+/// What is asked of an adapter beside limits: timestamps where it has them.
+pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
+    if adapter.features().contains(TIMESTAMPS) { TIMESTAMPS } else { wgpu::Features::empty() }
 }
 
-fn missing_feature(adapter: &wgpu::Adapter) -> Option<String> {
-    let missing = required_features() - adapter.features();
-    (!missing.is_empty()).then(|| format!("{missing:?}"))
+/// What an adapter does not have enough of, in words. No feature beyond WebGPU's own is needed.
+fn lacking(adapter: &wgpu::Adapter) -> Option<String> {
+    let allowed = adapter.limits();
+    let mut lacks = None;
+    required_limits(&allowed).check_limits_with_fail_fn(&allowed, true, |name, needed, allowed| {
+        lacks = Some(format!("`{name}`: it has {allowed}, and {needed} are needed"));
+    });
+    lacks
 }
 
 /// Storage buffers a shader stage binds: the scene (5), the plan (9), and the pixel's layers, lists and colours (4).

@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 
 /// The stages that the device runs, in their order.
-pub const STAGES: [&str; 4] = ["layers", "visibility", "resolve", "finish"];
+pub const STAGES: [&str; 3] = ["layers", "visibility", "resolve"];
 
 /// What a frame took, in seconds, summed over its windows.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -94,11 +94,9 @@ impl Headless {
             mark(&mut encoder, Some(0));
             job.encode_visibility(&mut encoder, sample);
             mark(&mut encoder, Some(1));
-            job.encode_resolve(&mut encoder, sample);
+            job.encode_resolve(&mut encoder, sample, view);
             mark(&mut encoder, Some(2));
         }
-        job.encode_finish(&mut encoder, view);
-        mark(&mut encoder, Some(3));
         let times = marks.map(|marks| marks.read(&self.device, &mut encoder));
         self.queue.submit([encoder.finish()]);
         self.wait()?;
@@ -108,7 +106,7 @@ impl Headless {
 
 impl Marks {
     fn new(device: &wgpu::Device, samples: usize) -> Self {
-        let count = 2 + 3 * samples as u32;
+        let count = 1 + (STAGES.len() * samples) as u32;
         let descriptor = wgpu::QuerySetDescriptor { label: Some("stages"), ty: wgpu::QueryType::Timestamp, count };
         Self { queries: device.create_query_set(&descriptor), ended: Vec::new() }
     }

@@ -10,8 +10,8 @@ pub enum Error {
         /// All adapters there are, or "none".
         found: String,
     },
-    #[error("the adapter {adapter} lacks {feature}")]
-    MissingFeature { adapter: String, feature: String },
+    #[error("the adapter {adapter} has not enough {what}")]
+    Lacking { adapter: String, what: String },
     #[error("the device could not be opened: {0}")]
     Device(String),
     #[error("{what} need {needed} bytes, and the device allows {allowed}")]

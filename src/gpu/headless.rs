@@ -38,7 +38,6 @@ pub struct Timings {
     pub layers: f64,
     pub visibility: f64,
     pub resolve: f64,
-    pub finish: f64,
     pub readback: f64,
 }
 
@@ -56,7 +55,7 @@ impl Headless {
         let adapter = &choice.adapter;
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lenspeel"),
-            required_features: caps::requested_features(adapter),
+            required_features: caps::wanted_features(adapter),
             required_limits: caps::required_limits(&adapter.limits()),
             ..Default::default()
         });
@@ -203,9 +202,8 @@ impl Headless {
         for sample in &job.samples {
             stages.run(|t| &mut t.layers, |e| job.encode_layers(e, sample))?;
             stages.run(|t| &mut t.visibility, |e| job.encode_visibility(e, sample))?;
-            stages.run(|t| &mut t.resolve, |e| job.encode_resolve(e, sample))?;
+            stages.run(|t| &mut t.resolve, |e| job.encode_resolve(e, sample, &view))?;
         }
-        stages.run(|t| &mut t.finish, |e| job.encode_finish(e, &view))?;
         stages.end()?;
         let start = Instant::now();
         let mut encoder = self.encoder();

@@ -15,6 +15,11 @@ pub struct ItemData {
     pub steps: Vec<StepRecord>,
 }
 
+/// Bytes from one record to the next; they start at multiples of 16 bytes.
+pub fn item_stride(words: u32) -> u64 {
+    (size_of::<ItemRecord>() as u64 + 5 * 4 * u64::from(words)).next_multiple_of(16)
+}
+
 impl ItemData {
     /// `words`: of a set of lenses.
     pub fn new(scene: &Scene, plan: &Plan, pieces: &[Piece], words: u32) -> Self {
@@ -27,12 +32,12 @@ impl ItemData {
         for piece in pieces {
             let item = piece.item;
             let record = record(scene, plan, piece, first_steps[piece.instance]);
+            let end = data.items.len() + item_stride(words) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
             for mask in [item.scope, item.object, item.shown_by, item.removed_by, item.movers] {
                 words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
             }
-            // Records start at multiples of 16 bytes.
-            data.items.resize(data.items.len().next_multiple_of(16), 0);
+            data.items.resize(end, 0);
         }
         data
     }
@@ -75,6 +80,7 @@ fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRec
         center: (item.center - plan.view.eye).as_vec3().to_array(),
         first_step,
         step_count: instance.steps.len() as u32,
+        first_vertex: range.base_vertex + piece.first_triangle,
     }
 }
 

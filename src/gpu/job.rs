@@ -27,10 +27,11 @@ pub struct Job {
     pub record_stride: u32,
     pub draws: Vec<(Draw, wgpu::RenderPipeline)>,
     pub positions: wgpu::Buffer,
+    pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub faces: Option<Faces>,
     pub compute: ComputeSteps,
-    pub finish: wgpu::RenderPipeline,
+    pub resolve: Resolve,
     pub targets: Arc<Targets>,
     pub groups: Groups,
 }
@@ -49,7 +50,6 @@ pub struct Faces {
 #[derive(Debug)]
 pub struct ComputeSteps {
     pub layers: wgpu::ComputePipeline,
-    pub resolve: wgpu::ComputePipeline,
     /// When maps are asked for.
     pub aov: Option<wgpu::ComputePipeline>,
 }
@@ -62,7 +62,13 @@ pub struct Groups {
     pub visibility: wgpu::BindGroup,
     pub resolve: wgpu::BindGroup,
     pub maps: Option<wgpu::BindGroup>,
-    pub finish: wgpu::BindGroup,
+}
+
+/// What composites the pixels of tiles that lenses touch, and those of all others.
+#[derive(Debug)]
+pub struct Resolve {
+    pub inside: wgpu::RenderPipeline,
+    pub outside: wgpu::RenderPipeline,
 }
 
 /// Writes the fragment of one pixel into a buffer.
@@ -115,6 +121,7 @@ impl Job {
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(2, &self.groups.visibility, &[]);
         pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_vertex_buffer(1, self.items.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for layer in (0..self.passes).rev() {
             pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, layer)]);
@@ -127,10 +134,19 @@ impl Job {
         }
     }
 
-    /// Composites each pixel's fragments; writes the maps where this is the sample for them.
-    pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
+    /// Composites each pixel's fragments into a target as large as the window, where the picture stands after the last
+    /// sample; writes the maps where this is the sample for them.
+    pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, target: &wgpu::TextureView) {
         if sample.colors {
-            self.encode_pixels(encoder, sample, &self.compute.resolve, &self.groups.resolve);
+            let mut pass = begin_drawing(encoder, "resolve", target, None);
+            pass.set_bind_group(0, &self.groups.scene, &[]);
+            pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+            pass.set_bind_group(2, &self.groups.resolve, &[]);
+            let Tiles { active, count, .. } = self.tiles;
+            pass.set_pipeline(&self.resolve.inside);
+            pass.draw(0..4, 0..active);
+            pass.set_pipeline(&self.resolve.outside);
+            pass.draw(0..4, active..count);
         }
         if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
             self.encode_pixels(encoder, sample, pipeline, group);
@@ -150,23 +166,13 @@ impl Job {
         group: &wgpu::BindGroup,
     ) {
         let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("resolve"), timestamp_writes: None });
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("pixels"), timestamp_writes: None });
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, group, &[]);
         let [width, height] = self.window.size;
         pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
-    }
-
-    /// Puts the mean of the samples over the background, into a target as large as the window.
-    pub fn encode_finish(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) {
-        let mut pass = begin_drawing(encoder, "finish", target, None);
-        pass.set_pipeline(&self.finish);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[0]);
-        pass.set_bind_group(2, &self.groups.finish, &[]);
-        pass.draw(0..3, 0..1);
     }
 }
 

@@ -22,6 +22,7 @@ mod part_data;
 mod pipelines;
 mod plan_group;
 mod program;
+mod provoking;
 mod readback;
 mod records;
 mod renderer;
@@ -33,7 +34,7 @@ mod tiles;
 mod upload;
 mod window;
 
-pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe, required_features, required_limits};
+pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe, required_limits};
 pub use cost::{FrameCost, STAGES};
 pub use error::Error;
 pub use headless::{Headless, Timings};

@@ -1,11 +1,14 @@
 //! Compiled pipelines.
 
 use std::collections::BTreeMap;
+use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::bindings::Layouts;
 use super::depth_maps::FaceVertex;
 use super::draws::Culling;
+use super::item_data::item_stride;
+use super::records::ItemRecord;
 use super::{Module, Needs, source};
 
 /// Formats of what the visibility pass draws into.
@@ -61,10 +64,9 @@ pub struct Pipelines {
     needs: Needs,
     depth_map: OnceLock<wgpu::RenderPipeline>,
     layers: OnceLock<wgpu::ComputePipeline>,
-    resolve: OnceLock<wgpu::ComputePipeline>,
+    resolve: OnceLock<wgpu::RenderPipeline>,
     aov: OnceLock<wgpu::ComputePipeline>,
     explain: OnceLock<wgpu::ComputePipeline>,
-    finish: OnceLock<wgpu::RenderPipeline>,
     visibility: OnceLock<wgpu::ShaderModule>,
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
 }
@@ -78,7 +80,6 @@ impl Pipelines {
             resolve: OnceLock::new(),
             aov: OnceLock::new(),
             explain: OnceLock::new(),
-            finish: OnceLock::new(),
             visibility: OnceLock::new(),
             draws: Mutex::default(),
         }
@@ -96,8 +97,13 @@ impl Pipelines {
         self.compute(&self.layers, store, Module::Layers, &store.layouts.layers, "find_layers")
     }
 
-    pub fn resolve(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.resolve, store, Module::Resolve, &store.layouts.resolve, "resolve")
+    pub fn resolve(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        let build = || {
+            let module = compile(&store.device, Module::Resolve, &self.needs);
+            let layout = pipeline_layout(store, &store.layouts.resolve);
+            resolve_pipeline(&store.device, &module, &layout, store.target)
+        };
+        self.resolve.get_or_init(build).clone()
     }
 
     pub fn aov(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
@@ -108,20 +114,11 @@ impl Pipelines {
         self.compute(&self.explain, store, Module::Explain, &store.layouts.resolve, "explain")
     }
 
-    pub fn finish(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        let build = || {
-            let module = compile(&store.device, Module::Finish, &self.needs);
-            let layout = pipeline_layout(store, &store.layouts.finish);
-            finish_pipeline(&store.device, &module, &layout, store.target)
-        };
-        self.finish.get_or_init(build).clone()
-    }
-
     pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
         let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, &self.needs));
         let build = || {
             let layout = pipeline_layout(store, &store.layouts.visibility);
-            draw_pipeline(&store.device, module, &layout, program.entry(), culling)
+            draw_pipeline(&store.device, module, &layout, program.entry(), culling, item_stride(self.needs.set_words))
         };
         let mut kept = self.draws.lock().unwrap_or_else(PoisonError::into_inner);
         kept.entry((program, culling)).or_insert_with(build).clone()
@@ -180,8 +177,21 @@ fn draw_pipeline(
     layout: &wgpu::PipelineLayout,
     entry: &str,
     culling: Culling,
+    item_stride: u64,
 ) -> wgpu::RenderPipeline {
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3];
+    let corner = wgpu::vertex_attr_array![0 => Float32x3];
+    let field = |shader_location, format, offset: usize| wgpu::VertexAttribute {
+        shader_location,
+        format,
+        offset: offset as u64,
+    };
+    // An attribute of the whole draw: a software adapter reads it once, where it would look a record up for each vertex.
+    let shown = [
+        field(1, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_x)),
+        field(2, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_y)),
+        field(3, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_z)),
+        field(4, wgpu::VertexFormat::Uint32, offset_of!(ItemRecord, first_vertex)),
+    ];
     let front_face = if culling == Culling::BackMirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(entry),
@@ -190,11 +200,18 @@ fn draw_pipeline(
             module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: 12,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &attributes,
-            })],
+            buffers: &[
+                Some(wgpu::VertexBufferLayout {
+                    array_stride: 12,
+                    step_mode: wgpu::VertexStepMode::Vertex,
+                    attributes: &corner,
+                }),
+                Some(wgpu::VertexBufferLayout {
+                    array_stride: item_stride,
+                    step_mode: wgpu::VertexStepMode::Instance,
+                    attributes: &shown,
+                }),
+            ],
         },
         primitive: wgpu::PrimitiveState {
             front_face,
@@ -258,27 +275,27 @@ fn depth_map_pipeline(
     })
 }
 
-fn finish_pipeline(
+fn resolve_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
     target: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("finish"),
+        label: Some("resolve"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some("whole_target"),
+            entry_point: Some("tile_vertex"),
             compilation_options: Default::default(),
             buffers: &[],
         },
-        primitive: Default::default(),
+        primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
         depth_stencil: None,
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some("finish"),
+            entry_point: Some("resolve"),
             compilation_options: Default::default(),
             targets: &[Some(target.into())],
         }),

@@ -18,6 +18,14 @@ pub struct PlanContents<'a> {
     pub tiles: &'a [u32],
 }
 
+/// A plan that has been uploaded.
+#[derive(Debug)]
+pub struct PlanGroup {
+    pub group: wgpu::BindGroup,
+    /// Records of items: in the group, and read by vertices as an attribute of their instance.
+    pub items: wgpu::Buffer,
+}
+
 impl PlanContents<'_> {
     /// Uploads everything; `allowed`: the most bytes of one buffer.
     pub fn upload(
@@ -25,13 +33,14 @@ impl PlanContents<'_> {
         device: &wgpu::Device,
         layout: &wgpu::BindGroupLayout,
         allowed: u64,
-    ) -> Result<wgpu::BindGroup, Error> {
+    ) -> Result<PlanGroup, Error> {
         let Self { plan, items, lenses, .. } = self;
         let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let buffer = |label, bytes| plan_buffer(device, allowed, label, bytes, wgpu::BufferUsages::STORAGE);
         let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::UNIFORM)?;
+        let as_attribute = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX;
+        let records = plan_buffer(device, allowed, "the plan's items", &items.items, as_attribute)?;
         let storage = [
-            buffer("the plan's items", &items.items)?,
             buffer("the plan's steps of movers", bytemuck::cast_slice(&items.steps))?,
             buffer("the plan's lenses", &lenses.lenses)?,
             buffer("the plan's parts of lenses", bytemuck::cast_slice(&lenses.parts.records))?,
@@ -46,9 +55,9 @@ impl PlanContents<'_> {
             offset: 0,
             size: wgpu::BufferSize::new(size_of::<FrameRecord>() as u64),
         };
-        let mut resources = vec![wgpu::BindingResource::Buffer(record)];
+        let mut resources = vec![wgpu::BindingResource::Buffer(record), records.as_entire_binding()];
         resources.extend(storage.iter().map(wgpu::Buffer::as_entire_binding));
-        Ok(bindings::group(device, "plan", layout, &resources))
+        Ok(PlanGroup { group: bindings::group(device, "plan", layout, &resources), items: records })
     }
 }
 

@@ -99,6 +99,8 @@ pub struct ItemRecord {
     pub center: [f32; 3],
     pub first_step: u32,
     pub step_count: u32,
+    /// The vertex at which its first triangle starts, of all vertices.
+    pub first_vertex: u32,
 }
 
 /// A lens that moves content, on the way down from a shown point.

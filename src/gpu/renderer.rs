@@ -7,10 +7,10 @@ use super::depth_maps::DepthMaps;
 use super::draws::{self, Draw, Piece};
 use super::frame::{self, FrameShape, Place, Sample};
 use super::item_data::ItemData;
-use super::job::{ComputeSteps, ExplainPass, Faces, Groups, Job};
+use super::job::{ComputeSteps, ExplainPass, Faces, Groups, Job, Resolve};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
-use super::plan_group::{PlanContents, plan_buffer};
+use super::plan_group::{PlanContents, PlanGroup, plan_buffer};
 use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
@@ -80,9 +80,8 @@ impl Renderer {
         for sample in &job.samples {
             job.encode_layers(encoder, sample);
             job.encode_visibility(encoder, sample);
-            job.encode_resolve(encoder, sample);
+            job.encode_resolve(encoder, sample, target);
         }
-        job.encode_finish(encoder, target);
         Ok(Encoded { needed: job.needed, room: job.room })
     }
 
@@ -136,7 +135,7 @@ impl Renderer {
     pub(super) fn explain_pass(&self, device: &wgpu::Device, job: &Job, bytes: u64) -> Result<ExplainPass, Error> {
         let buffer = work_buffer(device, self.largest_buffer, "fragment of a pixel", bytes)?;
         let group = self.resolve_group(device, &job.targets, buffer.as_entire_binding());
-        Ok(ExplainPass { pipeline: self.store.get(job.needs).explain(&self.store), group, buffer })
+        Ok(ExplainPass { pipeline: self.store.get(job.needs.for_accounts()).explain(&self.store), group, buffer })
     }
 
     fn prepare_frame(
@@ -148,12 +147,12 @@ impl Renderer {
         options: RenderOptions,
         after: Option<Place>,
     ) -> Result<Job, Error> {
-        let needs = Needs::of(plan);
+        let needs = Needs::of(scene, plan);
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
         let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
         let fragments = self.reserved.fragments.max(first_guess(plan, &window));
-        let targets = self.targets(device, &window, depth_maps.end_word, fragments)?;
+        let targets = self.targets(device, &window, plan.samples, depth_maps.end_word, fragments)?;
         let room = Room { fragments: targets.fragments.size() / FRAGMENT_BYTES, ..self.reserved };
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
@@ -174,7 +173,7 @@ impl Renderer {
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
         let pieces = draws::pieces(scene, plan, &self.scene);
-        let plan_group = PlanContents {
+        let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
             items: &ItemData::new(scene, plan, &pieces, words),
@@ -182,7 +181,7 @@ impl Renderer {
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
-        let groups = self.groups(device, plan_group, &targets, &needed, maps.as_ref());
+        let groups = self.groups(device, group, &targets, &needed, maps.as_ref());
         let pipelines = self.store.get(needs);
         Ok(Job {
             needs,
@@ -198,15 +197,18 @@ impl Renderer {
             draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, after.is_some()), &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
+            items,
             faces: (!depth_maps.vertices.is_empty())
                 .then(|| self.faces(device, &depth_maps, &pipelines))
                 .transpose()?,
             compute: ComputeSteps {
                 layers: pipelines.layers(&self.store),
-                resolve: pipelines.resolve(&self.store),
-                aov: options.aovs.then(|| pipelines.aov(&self.store)),
+                aov: options.aovs.then(|| self.store.get(needs.for_accounts()).aov(&self.store)),
             },
-            finish: pipelines.finish(&self.store),
+            resolve: Resolve {
+                inside: pipelines.resolve(&self.store),
+                outside: self.store.get(needs.outside(plan)).resolve(&self.store),
+            },
             targets,
             groups,
         })
@@ -251,15 +253,17 @@ impl Renderer {
         &mut self,
         device: &wgpu::Device,
         window: &Window,
+        samples: u32,
         layer_words: u64,
         fragments: u64,
     ) -> Result<Arc<Targets>, Error> {
-        if let Some(targets) = self.targets.as_ref().filter(|t| t.fits(window, layer_words, fragments)) {
+        let summed = if samples > 1 { window.pixels() } else { 0 };
+        if let Some(targets) = self.targets.as_ref().filter(|t| t.fits(window, summed, layer_words, fragments)) {
             return Ok(targets.clone());
         }
         // The old ones first, or both would be held at once.
         self.targets = None;
-        let targets = Arc::new(Targets::new(device, self.largest_buffer, window, layer_words, fragments)?);
+        let targets = Arc::new(Targets::new(device, self.largest_buffer, window, summed, layer_words, fragments)?);
         self.targets = Some(targets.clone());
         Ok(targets)
     }
@@ -289,7 +293,6 @@ impl Renderer {
             ),
             resolve: self.resolve_group(device, targets, accumulated()),
             maps: maps.map(|maps| self.resolve_group(device, targets, maps.as_entire_binding())),
-            finish: bindings::group(device, "finish", &self.store.layouts.finish, &[accumulated()]),
         }
     }
 

@@ -11,19 +11,11 @@ pub enum Module {
     Resolve,
     Aov,
     Explain,
-    Finish,
 }
 
 impl Module {
-    pub const ALL: [Module; 7] = [
-        Module::DepthMap,
-        Module::Layers,
-        Module::Visibility,
-        Module::Resolve,
-        Module::Aov,
-        Module::Explain,
-        Module::Finish,
-    ];
+    pub const ALL: [Module; 6] =
+        [Module::DepthMap, Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Explain];
 
     /// How labels and messages call it.
     pub fn name(self) -> &'static str {
@@ -34,7 +26,6 @@ impl Module {
             Module::Resolve => "resolve",
             Module::Aov => "aov",
             Module::Explain => "explain",
-            Module::Finish => "finish",
         }
     }
 
@@ -46,7 +37,6 @@ impl Module {
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
-            Module::Finish => &[&[FINISH]],
         }
     }
 }
@@ -79,16 +69,10 @@ const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");
-const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
 
 /// The whole WGSL of a module.
 pub fn source(module: Module, needs: &Needs) -> String {
-    // Extensions are enabled ahead of everything else.
-    let enable = match module {
-        Module::Visibility => "enable primitive_index;\n",
-        _ => "",
-    };
-    let mut text = enable.to_string() + &needs.wgsl();
+    let mut text = needs.wgsl();
     text += crate::appearance::WGSL;
     text += COMMON;
     for part in module.parts().iter().copied().flatten() {

@@ -7,6 +7,9 @@ use super::{Error, Window};
 /// Bytes of a listed fragment.
 pub const FRAGMENT_BYTES: u64 = 16;
 
+/// Bytes of a pixel's summed colour.
+const SUMMED_BYTES: u64 = 16;
+
 /// Textures and buffers of one window.
 #[derive(Debug)]
 pub struct Targets {
@@ -15,17 +18,19 @@ pub struct Targets {
     pub depth: wgpu::TextureView,
     /// The newest fragment of each pixel.
     pub heads: wgpu::Buffer,
-    /// Summed colours.
+    /// Summed colours, where there are several samples.
     pub accumulated: wgpu::Buffer,
     pub layers: wgpu::Buffer,
     pub fragments: wgpu::Buffer,
 }
 
 impl Targets {
+    /// `summed`: for how many pixels colours are summed.
     pub fn new(
         device: &wgpu::Device,
         allowed: u64,
         window: &Window,
+        summed: u64,
         layer_words: u64,
         fragments: u64,
     ) -> Result<Self, Error> {
@@ -54,15 +59,16 @@ impl Targets {
             ids: texture("visibility", ID_FORMAT, attachment | wgpu::TextureUsages::TEXTURE_BINDING),
             depth: texture("depth", DEPTH_FORMAT, attachment),
             heads: work_buffer(device, allowed, "heads of fragment lists", 4 * window.pixels())?,
-            accumulated: work_buffer(device, allowed, "summed colours", 16 * window.pixels())?,
+            accumulated: work_buffer(device, allowed, "summed colours", SUMMED_BYTES * summed)?,
             layers: work_buffer(device, allowed, "layers", 4 * layer_words)?,
             fragments: work_buffer(device, allowed, "fragments", FRAGMENT_BYTES * fragments)?,
         })
     }
 
     /// Whether a frame of this size fits.
-    pub fn fits(&self, window: &Window, layer_words: u64, fragments: u64) -> bool {
+    pub fn fits(&self, window: &Window, summed: u64, layer_words: u64, fragments: u64) -> bool {
         self.size == window.size
+            && self.accumulated.size() >= SUMMED_BYTES * summed
             && self.layers.size() >= 4 * layer_words
             && self.fragments.size() >= FRAGMENT_BYTES * fragments
     }

@@ -12,9 +12,11 @@ pub const DISPATCH_WIDTH: u32 = 1024;
 /// The tiles of a window as the shaders read them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tiles {
-    /// Four words a tile (first word of its layers, words a pixel, first part, parts), the numbers of the tiles
-    /// that lenses touch, and the lists of parts.
+    /// Four words a tile (first word of its layers, words a pixel, first part, parts), the numbers of all tiles, first
+    /// of those that lenses touch, and the lists of parts.
     pub words: Vec<u32>,
+    /// All tiles.
+    pub count: u32,
     /// Tiles that lenses touch.
     pub active: u32,
     /// Words that the layers of all pixels of those tiles need.
@@ -82,11 +84,12 @@ impl Tiles {
 
     /// `room`: how many boundaries each part may have on a ray.
     fn from_lists(lists: &[Vec<u32>], room: &[u32], set_words: u32) -> Self {
-        let active: Vec<u32> = (0u32..).zip(lists).filter(|(_, list)| !list.is_empty()).map(|(tile, _)| tile).collect();
+        let (active, rest): (Vec<u32>, Vec<u32>) =
+            (0..lists.len() as u32).partition(|tile| !lists[*tile as usize].is_empty());
         let layer = 1 + set_words;
         let mut words = Vec::new();
         let (mut layer_words, mut most_layers) = (0u64, 1);
-        let mut next_part = (4 * lists.len() + active.len()) as u32;
+        let mut next_part = 5 * lists.len() as u32;
         for list in lists {
             let count = list.len() as u32;
             let boundaries: u32 = list.iter().map(|part| room[*part as usize]).sum();
@@ -96,9 +99,10 @@ impl Tiles {
             layer_words += u64::from(stride) * u64::from(TILE * TILE);
             next_part += count;
         }
-        words.extend(&active);
+        words.extend(active.iter().chain(&rest));
         words.extend(lists.iter().flatten());
-        Self { words, active: active.len() as u32, layer_words, most_layers, stride: layer }
+        let count = lists.len() as u32;
+        Self { words, count, active: active.len() as u32, layer_words, most_layers, stride: layer }
     }
 }
 
@@ -114,9 +118,10 @@ mod tests {
         assert_eq!(two.active, 2);
         let (of_two, of_one) = (1 + 5 * 3, 1 + 3 * 3);
         assert_eq!(two.layer_words, 256 * (of_two + of_one));
-        assert_eq!(two.words[4..8], [0, 16, 14, 2]);
-        assert_eq!(two.words[8..12], [256 * 16, 10, 16, 1]);
-        assert_eq!(two.words[12..], [1, 2, 0, 5, 3]);
+        assert_eq!(two.words[4..8], [0, 16, 15, 2]);
+        assert_eq!(two.words[8..12], [256 * 16, 10, 17, 1]);
+        assert_eq!(two.words[12..15], [1, 2, 0], "the tiles that lenses touch come first");
+        assert_eq!(two.words[15..], [0, 5, 3]);
         assert_eq!(two.most_layers, 5);
         let mesh = Tiles::from_lists(&[vec![0, 1]], &[2, 8], 1);
         assert_eq!((mesh.layer_words, mesh.most_layers), (256 * (1 + 11 * 2), 11));

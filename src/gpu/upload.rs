@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::atlas::Atlas;
+use super::provoking::Provoking;
 use super::records::NONE;
 use super::{Error, bindings};
 use crate::plan::Item;
@@ -69,23 +70,24 @@ struct Lists {
 
 impl Lists {
     fn add(&mut self, primitive: &Primitive) -> Range {
+        let order = Provoking::new(primitive.positions.len(), &primitive.triangles);
         let range = Range {
             first_index: self.indices.len() as u32,
             base_vertex: (self.positions.len() / 3) as u32,
-            normals: self.attribute(primitive.normals.as_deref()),
-            tangents: self.attribute(primitive.tangents.as_deref()),
-            colors: self.attribute(primitive.colors.as_deref()),
-            uv: [self.attribute(primitive.uv[0].as_deref()), self.attribute(primitive.uv[1].as_deref())],
+            normals: self.attribute(&order, primitive.normals.as_deref()),
+            tangents: self.attribute(&order, primitive.tangents.as_deref()),
+            colors: self.attribute(&order, primitive.colors.as_deref()),
+            uv: [0, 1].map(|set| self.attribute(&order, primitive.uv[set].as_deref())),
         };
-        self.positions.extend_from_slice(bytemuck::cast_slice(&primitive.positions));
-        self.indices.extend_from_slice(bytemuck::cast_slice(&primitive.triangles));
+        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
+        self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
         range
     }
 
-    fn attribute<T: bytemuck::Pod>(&mut self, values: Option<&[T]>) -> u32 {
+    fn attribute<T: bytemuck::Pod>(&mut self, order: &Provoking, values: Option<&[T]>) -> u32 {
         let Some(values) = values else { return NONE };
         let start = self.attributes.len() as u32;
-        self.attributes.extend_from_slice(bytemuck::cast_slice(values));
+        self.attributes.extend_from_slice(bytemuck::cast_slice(&order.copied(values)));
         start
     }
 }

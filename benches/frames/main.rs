@@ -10,6 +10,7 @@ mod baselines;
 mod contenders;
 mod lens_sets;
 mod rows;
+#[path = "../support/mod.rs"]
 mod support;
 
 use std::process::ExitCode;
