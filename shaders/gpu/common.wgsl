@@ -261,7 +261,7 @@ struct TextureInfo {
 @group(0) @binding(6) var pages_srgb: texture_2d_array<f32>;
 
 // The plan: one frame.
-@group(1) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<storage, read> frame: Frame;
 @group(1) @binding(1) var<storage, read> items: array<Item>;
 @group(1) @binding(2) var<storage, read> steps: array<Step>;
 @group(1) @binding(3) var<storage, read> lenses: array<Lens>;

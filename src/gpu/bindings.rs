@@ -15,19 +15,20 @@ pub struct Layouts {
 enum Kind {
     Read,
     ReadWrite,
-    /// At an offset that each pass chooses.
-    Uniform,
+    /// At an offset that each pass chooses. Not a uniform: some software adapters compile shaders anew for the values that
+    /// branches read from uniforms, with each draw, and keep them all.
+    Record,
     TexturePages,
     IdTexture,
 }
 
 impl Layouts {
     pub fn new(device: &wgpu::Device) -> Self {
-        use Kind::{IdTexture, Read, ReadWrite, TexturePages, Uniform};
+        use Kind::{IdTexture, Read, ReadWrite, Record, TexturePages};
         let compute = wgpu::ShaderStages::COMPUTE;
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let everywhere = compute | fragment | wgpu::ShaderStages::VERTEX;
-        let plan = [Uniform, Read, Read, Read, Read, Read, Read, Read, Read, Read];
+        let plan = [Record, Read, Read, Read, Read, Read, Read, Read, Read, Read];
         Self {
             scene: layout(
                 device,
@@ -62,8 +63,8 @@ fn binding_type(kind: Kind) -> wgpu::BindingType {
     match kind {
         Kind::Read => storage(true),
         Kind::ReadWrite => storage(false),
-        Kind::Uniform => wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
+        Kind::Record => wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
             has_dynamic_offset: true,
             min_binding_size: None,
         },

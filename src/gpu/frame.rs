@@ -1,4 +1,4 @@
-//! The uniform records of a frame: one for each sample or, for `peel`, for each layer of each sample.
+//! The records of a frame: one for each sample or, for `peel`, for each layer of each sample.
 
 use glam::DVec2;
 

@@ -37,7 +37,7 @@ impl PlanContents<'_> {
         let Self { plan, items, lenses, .. } = self;
         let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let buffer = |label, bytes| plan_buffer(device, allowed, label, bytes, wgpu::BufferUsages::STORAGE);
-        let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::UNIFORM)?;
+        let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::STORAGE)?;
         let as_attribute = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX;
         let records = plan_buffer(device, allowed, "the plan's items", &items.items, as_attribute)?;
         let storage = [

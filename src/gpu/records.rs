@@ -194,7 +194,7 @@ pub fn words_of(set: &LensSet, words: u32) -> impl Iterator<Item = u32> + '_ {
     (0..words as usize).map(|i| set.word(i))
 }
 
-/// All words a set can have, for uniforms.
+/// All words a set can have.
 pub fn all_words(set: &LensSet) -> [u32; 12] {
     std::array::from_fn(|i| set.word(i))
 }

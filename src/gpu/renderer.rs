@@ -331,9 +331,9 @@ fn first_guess(plan: &Plan, window: &Window) -> u64 {
     (2 * lenses.map(|lens| window.local(&lens.rect).area()).sum::<u64>()).clamp(64, 4 * pixels.max(16))
 }
 
-/// Bytes from one uniform record to the next.
+/// Bytes from one record to the next.
 fn record_stride(device: &wgpu::Device) -> u32 {
-    (size_of::<FrameRecord>() as u32).next_multiple_of(device.limits().min_uniform_buffer_offset_alignment)
+    (size_of::<FrameRecord>() as u32).next_multiple_of(device.limits().min_storage_buffer_offset_alignment)
 }
 
 fn frame_bytes(shape: &FrameShape, samples: &[Sample], passes: u32, stride: u32) -> Vec<u8> {
