@@ -12,12 +12,12 @@ use lenspeel::cpu::Renderer;
 use lenspeel::plan::Plan;
 use lenspeel::scene::Scene;
 use lenspeel::spec::Spec;
-use support::surface;
+use support::{TRIANGLES, surface};
 
 const ROUNDS: usize = 7;
 
 fn main() {
-    let scene = Scene::new(vec![surface()], Vec::new());
+    let scene = Scene::new(vec![surface(TRIANGLES)], Vec::new());
     let names = [("no lens", 0, ""), ("1 lens, invert", 1, "\"invert\""), ("8 lenses, invert", 8, "\"invert\"")];
     let plans: Vec<Plan> = names.iter().map(|n| Plan::new(&spec(n.1, n.2), &scene).expect("valid")).collect();
     let mut set_up = vec![Vec::new(); plans.len()];

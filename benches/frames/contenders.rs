@@ -27,14 +27,16 @@ pub struct Field {
     /// With another model as large as the surface, for the x-ray; made when it is asked for.
     deep: std::cell::OnceCell<(Scene, RefCell<Renderer>)>,
     size: [u32; 2],
+    /// Of the surface, at least.
+    triangles: usize,
     left_out: RefCell<Vec<&'static str>>,
 }
 
 impl Field {
-    pub fn new(adapter: &AdapterChoice, size: [u32; 2]) -> Result<Self, String> {
+    pub fn new(adapter: &AdapterChoice, size: [u32; 2], triangles: usize) -> Result<Self, String> {
         let device = Headless::new(adapter).map_err(|error| error.to_string())?;
         let host = Rc::new(Host::new(adapter)?);
-        let mut scene = Scene::new(vec![support::surface()], Vec::new());
+        let mut scene = Scene::new(vec![support::surface(triangles)], Vec::new());
         for ball in [Ball::Icosahedron, Ball::Finest] {
             add_mesh(&mut scene, ball, size)?;
         }
@@ -48,6 +50,7 @@ impl Field {
             renderer,
             deep: Default::default(),
             size,
+            triangles,
             left_out: Default::default(),
         })
     }
@@ -55,6 +58,13 @@ impl Field {
     /// Why baselines that were asked for are not drawn.
     pub fn left_out(&self) -> Vec<&'static str> {
         self.left_out.borrow().clone()
+    }
+
+    fn leave_out(&self, why: &'static str) {
+        let mut list = self.left_out.borrow_mut();
+        if !list.contains(&why) {
+            list.push(why);
+        }
     }
 
     /// Who draws what a row calls by this name; `None` where a baseline is left out.
@@ -95,14 +105,17 @@ impl Field {
             _ => return Ok(Some(self.fused(name, plan))),
         };
         match baseline {
-            Some(baseline) => self.checked(name, baseline, &plan).map(Some),
-            None => {
-                self.left_out.borrow_mut().push(match name {
-                    CLIP_PLANES => "clipping planes: this adapter has no clip distances",
-                    _ => return Err(format!("{name}: the baseline does not know these lenses")),
-                });
+            Some(baseline) => {
+                if let THREE_PASS | CLIP_PLANES = name {
+                    self.leave_out("three passes and clipping planes with several lenses: they are published for one");
+                }
+                self.checked(name, baseline, &plan).map(Some)
+            }
+            None if name == CLIP_PLANES => {
+                self.leave_out("clipping planes: this adapter has no clip distances");
                 Ok(None)
             }
+            None => Err(format!("{name}: the baseline does not know these lenses")),
         }
     }
 
@@ -111,10 +124,10 @@ impl Field {
         if let Some(deep) = self.deep.get() {
             return Ok(deep);
         }
-        let mut below = support::surface();
+        let mut below = support::surface(self.triangles);
         below.name = "deep.glb".into();
         below.nodes[0].world_from_local.translation.y = -0.2;
-        let scene = Scene::new(vec![support::surface(), below], vec!["deep".into()]);
+        let scene = Scene::new(vec![support::surface(self.triangles), below], vec!["deep".into()]);
         let renderer = self.device.renderer(&scene).map_err(|error| error.to_string())?;
         Ok(self.deep.get_or_init(|| (scene, RefCell::new(renderer))))
     }

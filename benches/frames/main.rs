@@ -2,8 +2,8 @@
 //! draw the same pictures.
 //!
 //! `cargo bench --bench frames` draws a surface of a million triangles at 1280x720, one sample a pixel, on the best
-//! adapter there is; `-- NAME` only the rows whose names hold NAME; `--rounds N`, `--size WxH` and `--json` as their
-//! names say. See `benches/README.md`.
+//! adapter there is; `-- NAME` only the rows whose names hold NAME; `--rounds N`, `--size WxH`, `--triangles N` and
+//! `--json` as their names say. See `benches/README.md`.
 
 mod balls;
 mod baselines;
@@ -24,6 +24,7 @@ use contenders::Field;
 struct Args {
     rounds: usize,
     size: [u32; 2],
+    triangles: usize,
     json: bool,
     name: String,
 }
@@ -45,7 +46,7 @@ fn run(args: &Args) -> Result<(), String> {
     }
     let adapter = choose_named(None).map_err(|error| error.to_string())?;
     eprintln!("{}", adapter.reason);
-    let field = Field::new(&adapter, args.size)?;
+    let field = Field::new(&adapter, args.size, args.triangles)?;
     let mut names: Vec<&str> = Vec::new();
     for name in cases.iter().flat_map(|case| [case.to.as_str(), case.of.as_str()]) {
         if !names.contains(&name) {
@@ -64,11 +65,13 @@ fn run(args: &Args) -> Result<(), String> {
         let mut all = json(&verdicts, &measured);
         all["adapter"] = adapter.reason.as_str().into();
         all["size"] = serde_json::json!(args.size);
+        all["triangles"] = serde_json::json!(args.triangles);
         all["left_out"] = serde_json::json!(missing);
         println!("{all:#}");
         return Ok(());
     }
-    println!("{}, {}x{}, {} rounds\n", adapter.reason, args.size[0], args.size[1], args.rounds);
+    let Args { rounds, size: [width, height], triangles, .. } = args;
+    println!("{}; {triangles} triangles, {width}x{height}, medians of {rounds} rounds\n", adapter.reason);
     print!("{}", text(&verdicts, &measured));
     for why in missing {
         println!("\nleft out: {why}");
@@ -78,13 +81,18 @@ fn run(args: &Args) -> Result<(), String> {
 
 impl Args {
     fn parse(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
-        let mut args = Self { rounds: 7, size: [1280, 720], json: false, name: String::new() };
+        let mut args =
+            Self { rounds: 7, size: [1280, 720], triangles: support::TRIANGLES, json: false, name: String::new() };
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or(format!("{word} needs a value"));
             match word.as_str() {
                 // Cargo says so to every benchmark.
                 "--bench" => {}
                 "--json" => args.json = true,
+                "--triangles" => {
+                    let triangles = value()?.parse().ok().filter(|triangles| (2..=100_000_000).contains(triangles));
+                    args.triangles = triangles.ok_or("--triangles needs a number from 2 to 100000000")?;
+                }
                 "--rounds" => {
                     let rounds = value()?.parse().ok().filter(|rounds| *rounds > 0);
                     args.rounds = rounds.ok_or("--rounds needs a number from 1 on")?;

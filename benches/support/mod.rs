@@ -1,26 +1,28 @@
-//! What several benchmarks share: a surface of a million triangles.
+//! What several benchmarks share: a surface of a million triangles, or of another number.
 
 use glam::Vec3;
 use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Transform};
 
-/// Quads along each side of the surface: 2 * 708^2 = 1,002,528 triangles.
-const SIDE: usize = 708;
+/// Of the surface, unless another number is asked for; it has 1,002,528.
+pub const TRIANGLES: usize = 1_000_000;
 
-/// A rolling surface over the unit square, two units wide.
-pub fn surface() -> Model {
-    let at = |i: usize, j: usize| {
-        let (x, z) = (2.0 * i as f32 / SIDE as f32 - 1.0, 2.0 * j as f32 / SIDE as f32 - 1.0);
+/// A rolling surface over the unit square, two units wide, of at least so many triangles.
+pub fn surface(triangles: usize) -> Model {
+    // Quads along each side.
+    let side = (0.5 * triangles as f64).sqrt().ceil() as usize;
+    let at = move |i: usize, j: usize| {
+        let (x, z) = (2.0 * i as f32 / side as f32 - 1.0, 2.0 * j as f32 / side as f32 - 1.0);
         Vec3::new(x, 0.12 * ((9.0 * x).sin() * (7.0 * z).cos()) + 0.02 * (40.0 * x + 31.0 * z).sin(), z)
     };
-    let grid = || (0..=SIDE).flat_map(|j| (0..=SIDE).map(move |i| (i, j)));
-    let normal = |(i, j): (usize, usize)| {
-        let (l, r) = (at(i.saturating_sub(1), j), at((i + 1).min(SIDE), j));
-        let (n, f) = (at(i, j.saturating_sub(1)), at(i, (j + 1).min(SIDE)));
+    let grid = || (0..=side).flat_map(move |j| (0..=side).map(move |i| (i, j)));
+    let normal = move |(i, j): (usize, usize)| {
+        let (l, r) = (at(i.saturating_sub(1), j), at((i + 1).min(side), j));
+        let (n, f) = (at(i, j.saturating_sub(1)), at(i, (j + 1).min(side)));
         (f - n).cross(r - l).normalize()
     };
-    let corner = |i: usize, j: usize| (j * (SIDE + 1) + i) as u32;
-    let triangles = (0..SIDE)
-        .flat_map(|j| (0..SIDE).map(move |i| (i, j)))
+    let corner = move |i: usize, j: usize| (j * (side + 1) + i) as u32;
+    let triangles = (0..side)
+        .flat_map(|j| (0..side).map(move |i| (i, j)))
         .flat_map(|(i, j)| {
             let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
             [[a, d, c], [a, c, b]]
