@@ -5,12 +5,14 @@
 
 mod support;
 
+use std::path::Path;
 use std::time::Instant;
 
 use lenspeel::cpu::Renderer;
 use lenspeel::plan::Plan;
 use lenspeel::scene::Scene;
-use support::{spec, surface};
+use lenspeel::spec::Spec;
+use support::surface;
 
 const ROUNDS: usize = 7;
 
@@ -38,4 +40,20 @@ fn main() {
     for (i, name) in names.iter().enumerate() {
         println!("{}: set up {:.0} ms, frame {:.0} ms", name.0, median(&set_up[i]), median(&frames[i]));
     }
+}
+
+/// One sphere that covers 10.2 % of the picture, or several that overlap in a ring.
+fn spec(lenses: usize, filters: &str) -> Spec {
+    let mut text = String::from(
+        "[scene]\nfile = \"surface.glb\"\n[camera]\neye = [0, 1.5, 2.2]\ntarget = [0, 0, 0]\n[image]\nsize = [1280, 720]\nsamples = 1\n",
+    );
+    for i in 0..lenses {
+        let angle = std::f64::consts::TAU * i as f64 / lenses as f64;
+        let (x, z, radius) = if lenses == 1 { (0.0, 0.0, 0.52) } else { (0.45 * angle.cos(), 0.35 * angle.sin(), 0.4) };
+        text += &format!(
+            "[[lens]]\nname = \"l{i}\"\npriority = {i}\nglass = false\nfilters = [{filters}]\n\
+             shape.sphere = {{ center = [{x:.4}, 0, {z:.4}], radius = {radius} }}\n"
+        );
+    }
+    Spec::parse(&text, "bench.toml", Path::new("")).expect("the specs of the benchmark are valid")
 }

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod appearance;
+pub mod bench;
 pub mod cli;
 pub mod cpu;
 pub mod debug_view;

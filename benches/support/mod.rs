@@ -1,29 +1,10 @@
-//! What several benchmarks share: a surface of a million triangles, and lenses over it.
-
-use std::path::Path;
+//! What several benchmarks share: a surface of a million triangles.
 
 use glam::Vec3;
 use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Transform};
-use lenspeel::spec::Spec;
 
 /// Quads along each side of the surface: 2 * 708^2 = 1,002,528 triangles.
 const SIDE: usize = 708;
-
-/// One sphere that covers 10.2 % of the picture, or several that overlap in a ring.
-pub fn spec(lenses: usize, filters: &str) -> Spec {
-    let mut text = String::from(
-        "[scene]\nfile = \"surface.glb\"\n[camera]\neye = [0, 1.5, 2.2]\ntarget = [0, 0, 0]\n[image]\nsize = [1280, 720]\nsamples = 1\n",
-    );
-    for i in 0..lenses {
-        let angle = std::f64::consts::TAU * i as f64 / lenses as f64;
-        let (x, z, radius) = if lenses == 1 { (0.0, 0.0, 0.52) } else { (0.45 * angle.cos(), 0.35 * angle.sin(), 0.4) };
-        text += &format!(
-            "[[lens]]\nname = \"l{i}\"\npriority = {i}\nglass = false\nfilters = [{filters}]\n\
-             shape.sphere = {{ center = [{x:.4}, 0, {z:.4}], radius = {radius} }}\n"
-        );
-    }
-    Spec::parse(&text, "bench.toml", Path::new("")).expect("the specs of the benchmark are valid")
-}
 
 /// A rolling surface over the unit square, two units wide.
 pub fn surface() -> Model {
@@ -51,8 +32,13 @@ pub fn surface() -> Model {
         triangles,
         ..Primitive::default()
     };
+    model("surface.glb", primitive)
+}
+
+/// A model of one thing that stands where its node's space is the world's.
+pub fn model(name: &str, primitive: Primitive) -> Model {
     let node = Node {
-        name: "surface".into(),
+        name: "node".into(),
         parent: None,
         children: Vec::new(),
         rest: Transform::IDENTITY,
@@ -65,9 +51,9 @@ pub fn surface() -> Model {
     let material =
         Material { base_color: [0.6, 0.62, 0.55, 1.0], metallic: 0.0, roughness: 0.7, ..Material::default() };
     Model {
-        name: "surface.glb".into(),
+        name: name.into(),
         nodes: vec![node],
-        meshes: vec![Mesh { name: "surface".into(), primitives: vec![primitive] }],
+        meshes: vec![Mesh { name: "mesh".into(), primitives: vec![primitive] }],
         materials: vec![material],
         ..Model::default()
     }

@@ -30,6 +30,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Tell what is visible at a pixel
     Pick(PickArgs),
+    /// Measure what the lenses of a lens-spec file cost on the GPU
+    Bench(BenchArgs),
     /// Describe a glTF model
     Info {
         /// A .glb or .gltf file
@@ -96,6 +98,21 @@ pub struct ViewArgs {
     /// Who finds what is seen: the GPU, the CPU, or the GPU where there is a real one
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
+}
+
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// The lens-spec file
+    pub spec: PathBuf,
+    /// How many frames each contender draws, in turn; one more before them is not counted
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: u32,
+    /// Width and height in pixels, as in 1920x1080; left out: the spec's
+    #[arg(long, value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Print JSON with every single frame instead of a table
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,8 @@
 
 mod args;
 mod backend;
+#[cfg(feature = "gpu")]
+mod bench;
 mod check;
 mod explain;
 mod filters;
@@ -42,6 +44,13 @@ pub fn run() -> ExitCode {
         Command::Check { spec, strict } => check::run(&spec, strict),
         Command::Explain(args) => explain::run(&args),
         Command::Pick(args) => explain::pick(&args),
+        #[cfg(feature = "gpu")]
+        Command::Bench(args) => bench::run(&args),
+        #[cfg(not(feature = "gpu"))]
+        Command::Bench(_) => Err(InputError::new(
+            "`bench` measures the GPU backend, and this program was built without the `gpu` feature",
+        )
+        .help("build it with default features")),
         Command::Info { model } => Model::load(&model, None).map(|m| print(&info_text(&m))),
         Command::Init { model, output } => init_command(&model, output.as_deref()),
         Command::Filters => {

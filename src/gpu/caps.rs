@@ -84,6 +84,15 @@ pub fn describe(adapter: &wgpu::Adapter) -> String {
     format!("{} ({kind}, {}, {})", info.name, info.backend, info.driver_info)
 }
 
+/// Times on the device between the stages of a frame, where an adapter has both.
+pub const TIMESTAMPS: wgpu::Features =
+    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+
+/// What is asked of an adapter beside limits: timestamps where it has them.
+pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
+    if adapter.features().contains(TIMESTAMPS) { TIMESTAMPS } else { wgpu::Features::empty() }
+}
+
 /// What an adapter does not have enough of, in words. No feature beyond WebGPU's own is needed.
 fn lacking(adapter: &wgpu::Adapter) -> Option<String> {
     let allowed = adapter.limits();

@@ -55,6 +55,7 @@ impl Headless {
         let adapter = &choice.adapter;
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lenspeel"),
+            required_features: caps::wanted_features(adapter),
             required_limits: caps::required_limits(&adapter.limits()),
             ..Default::default()
         });
@@ -195,17 +196,7 @@ impl Headless {
         timings: &mut Option<Timings>,
         picture: &mut Picture,
     ) -> Result<Room, Error> {
-        let [width, height] = job.window.size;
-        let target = self.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("picture"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let target = self.target(job.window.size);
         let view = target.create_view(&Default::default());
         let mut stages = Stages { headless: self, encoder: None, timings };
         for sample in &job.samples {
@@ -242,11 +233,25 @@ impl Headless {
         Ok(needed)
     }
 
+    /// What the picture of a window is drawn into.
+    pub(super) fn target(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    }
+
     pub(super) fn encoder(&self) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&Default::default())
     }
 
-    fn wait(&self) -> Result<(), Error> {
+    pub(super) fn wait(&self) -> Result<(), Error> {
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| Error::Lost(e.to_string()))?;
         self.check()
     }
@@ -308,7 +313,7 @@ impl Picture {
 }
 
 /// The halves of a window that outgrew the device, the upper last so that it is drawn first; any other error stays one.
-fn smaller(window: &Window, error: Error) -> Result<[Window; 2], Error> {
+pub(super) fn smaller(window: &Window, error: Error) -> Result<[Window; 2], Error> {
     let is_whole = |what: &str| what.starts_with("the scene's") || what.starts_with("the plan's");
     let too_large = matches!(&error, Error::TooLarge { what, .. } if !is_whole(what))
         || matches!(&error, Error::TextureTooLarge { name, .. } if name == "of the picture");

@@ -7,6 +7,7 @@ mod aov;
 mod atlas;
 mod bindings;
 mod caps;
+mod cost;
 mod depth_maps;
 mod draws;
 mod error;
@@ -27,18 +28,21 @@ mod records;
 mod renderer;
 mod room;
 mod shaders;
+mod storage;
 mod targets;
 mod tiles;
 mod upload;
 mod window;
 
 pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe, required_limits};
+pub use cost::{FrameCost, STAGES};
 pub use error::Error;
 pub use headless::{Headless, Timings};
 pub use needs::Needs;
 pub use renderer::{Encoded, Renderer};
 pub use room::Room;
 pub use shaders::{Module, source};
+pub use storage::LensStorage;
 pub use window::Window;
 
 pub mod layout {

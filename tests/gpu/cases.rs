@@ -31,6 +31,10 @@ pub const ALL: &[(&str, Test)] = &[
     ("as_many_lenses_as_there_can_be", crate::limits::as_many_lenses_as_there_can_be),
     ("what_a_plan_needs_is_refused_with_numbers", crate::limits::what_a_plan_needs_is_refused_with_numbers),
     ("a_target_of_a_host", crate::host::a_target_of_a_host),
+    ("frames_have_costs", crate::bench::frames_have_costs),
+    ("storage_grows_with_the_lenses", crate::bench::storage_grows_with_the_lenses),
+    ("bench_prints_a_table", crate::bench::the_program_prints_a_table),
+    ("bench_prints_json", crate::bench::the_program_prints_json),
 ];
 
 const SIZE: [u32; 2] = [120, 90];

@@ -4,6 +4,7 @@
 //! Without an adapter these report as ignored; with `LENSPEEL_REQUIRE_GPU=1` a missing adapter is a failure.
 
 mod agree;
+mod bench;
 mod cases;
 mod compounds;
 mod host;

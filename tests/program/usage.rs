@@ -7,11 +7,14 @@ fn wrong_usage_is_told_from_wrong_input() {
     let folder = Folder::new("usage");
     let (spec, picture) = (project("lens-specs/order/over.toml"), folder.file("picture.png"));
     let render = ["render", &spec, "-o", &picture];
-    let wrong: [&[&str]; 15] = [
+    let wrong: [&[&str]; 18] = [
         &[],
         &["paint"],
         &["render", &spec],
         &["check"],
+        &["bench"],
+        &["bench", &spec, "--frames", "0"],
+        &["bench", &spec, "--size", "10"],
         &["explain", &spec, "--format", "xml"],
         &["explain", &spec, "--pixel", "1;2"],
         &["pick", &spec],
@@ -35,7 +38,7 @@ fn wrong_usage_is_told_from_wrong_input() {
 #[test]
 fn help_and_version_are_no_mistakes() {
     let help = call(&["help"]).good();
-    for command in ["render", "check", "explain", "pick", "info", "init", "filters", "schema"] {
+    for command in ["render", "check", "explain", "pick", "bench", "info", "init", "filters", "schema"] {
         assert!(help.contains(command), "{command}: {help}");
     }
     assert!(call(&["--version"]).good().starts_with("lenspeel "));
@@ -47,4 +50,8 @@ fn a_file_that_is_not_there_is_wrong_input() {
         let report = call(&arguments).refused();
         assert!(report.contains(arguments[1]), "{report}");
     }
+    #[cfg(feature = "gpu")]
+    assert!(call(&["bench", "none.toml"]).refused().contains("none.toml"));
+    #[cfg(not(feature = "gpu"))]
+    assert!(call(&["bench", &project("lens-specs/order/over.toml")]).refused().contains("`gpu` feature"));
 }

@@ -1,0 +1,206 @@
+//! `lenspeel bench`: what the lenses of a spec cost.
+
+use serde_json::json;
+
+use super::args::BenchArgs;
+use crate::InputError;
+use crate::bench::{Case, Contender, Measured, Sample, Verdict, interleaved};
+use crate::gpu::{Engine, Error, Headless, LensStorage, RenderOptions, Renderer, STAGES, Timings, choose_named};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::spec::Spec;
+
+const NO_LENS: &str = "no lens";
+const FUSED: &str = "fused";
+const PEEL: &str = "peel";
+
+/// What came out, and of what.
+struct Account<'a> {
+    spec: &'a Spec,
+    plan: &'a Plan,
+    adapter: &'a str,
+    /// Whether stages are timed by the device itself.
+    device_clock: bool,
+    measured: Vec<Measured>,
+    storage: LensStorage,
+}
+
+pub fn run(args: &BenchArgs) -> Result<(), InputError> {
+    let mut spec = Spec::load(&args.spec)?;
+    spec.image.size = args.size.unwrap_or(spec.image.size);
+    let scene = Scene::open(&spec)?;
+    let plan = Plan::new(&spec, &scene)?;
+    for warning in &plan.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let adapter = choose_named(None).map_err(no_frame)?;
+    let device = Headless::new(&adapter).map_err(no_frame)?;
+    eprintln!("gpu: {}", device.reason);
+    let (measured, storage) =
+        measure(&device, &scene, &plan, &without_lenses(&spec, &scene, &plan)?, args.frames).map_err(no_frame)?;
+    let device_clock = device.has_timestamps();
+    let account = Account { spec: &spec, plan: &plan, adapter: &device.reason, device_clock, measured, storage };
+    if args.json {
+        super::print_json(&account.json());
+    } else {
+        super::print(&account.text());
+    }
+    Ok(())
+}
+
+fn no_frame(error: Error) -> InputError {
+    InputError::new(format!("the GPU cannot draw these frames: {error}"))
+        .help("`bench` measures the GPU backend; try a smaller `--size`")
+}
+
+/// The same picture without its lenses, over the same depths.
+fn without_lenses(spec: &Spec, scene: &Scene, plan: &Plan) -> Result<Plan, InputError> {
+    let bare = Spec { lenses: Vec::new(), overlaps: Vec::new(), ..spec.clone() };
+    let mut bare = Plan::new(&bare, scene)?;
+    bare.view = plan.view.clone();
+    Ok(bare)
+}
+
+fn measure(
+    device: &Headless,
+    scene: &Scene,
+    plan: &Plan,
+    bare: &Plan,
+    frames: u32,
+) -> Result<(Vec<Measured>, LensStorage), Error> {
+    let mut renderer = device.renderer(scene)?;
+    // Before any other frame, which might make room that this plan does not need.
+    let fused = RenderOptions::default();
+    device.render_with(&mut renderer, scene, plan, fused, &mut None)?;
+    let storage = device.lens_storage(&mut renderer, scene, plan, fused)?;
+    let renderer = std::cell::RefCell::new(renderer);
+    let contender = |name, plan, engine| {
+        let (renderer, options) = (&renderer, RenderOptions { engine, aovs: false });
+        let mut is_settled = false;
+        Contender::new(name, move || {
+            let mut renderer = renderer.borrow_mut();
+            if !is_settled {
+                device.render_with(&mut renderer, scene, plan, options, &mut None)?;
+                is_settled = true;
+            }
+            sample(device, &mut renderer, scene, plan, options)
+        })
+    };
+    let mut contenders = [
+        contender(NO_LENS, bare, Engine::Fused),
+        contender(FUSED, plan, Engine::Fused),
+        contender(PEEL, plan, Engine::Peel),
+    ];
+    let bar = super::stages::progress(u64::from(frames) + 1);
+    let measured = interleaved(&mut contenders, frames as usize, |_| bar.inc(1))?;
+    bar.finish_and_clear();
+    Ok((measured, storage))
+}
+
+/// One frame, and how long each of its stages took: on the device's clock where it has one, else in a second frame
+/// that waits for each stage.
+fn sample(
+    device: &Headless,
+    renderer: &mut Renderer,
+    scene: &Scene,
+    plan: &Plan,
+    options: RenderOptions,
+) -> Result<Sample, Error> {
+    let cost = device.time_frame(renderer, scene, plan, options, true)?;
+    let (seconds, parts) = match cost.stages {
+        Some(parts) => (parts.iter().sum(), parts),
+        None => {
+            let mut timings = Some(Timings::default());
+            device.render_with(renderer, scene, plan, options, &mut timings)?;
+            let waited = timings.unwrap_or_default();
+            (cost.wall - cost.prepare, [waited.layers, waited.visibility, waited.resolve])
+        }
+    };
+    let mut stages: Vec<(&'static str, f64)> = STAGES.into_iter().zip(parts).collect();
+    stages.extend([("upload", cost.prepare), ("whole frame", cost.wall)]);
+    Ok(Sample { seconds, stages })
+}
+
+impl Account<'_> {
+    fn verdicts(&self) -> Vec<Verdict> {
+        let case = |of: &str, to: &str| Case { name: format!("{of} / {to}"), of: of.into(), to: to.into(), bar: None };
+        let cases = [case(FUSED, NO_LENS), case(PEEL, NO_LENS), case(PEEL, FUSED)];
+        cases.iter().filter_map(|case| Verdict::new(case, &self.measured)).collect()
+    }
+
+    fn text(&self) -> String {
+        let [width, height] = self.plan.view.size;
+        let clock = match self.device_clock {
+            true => "times are the device's own",
+            false => "times are from submission to the end, those of the stages each waited for",
+        };
+        let rounds = self.measured.first().map_or(0, |m| m.samples.len());
+        let samples = self.plan.samples;
+        let mut text = format!(
+            "{}: {} enabled lenses, {width} x {height}, {samples} samples a pixel\nmedians of {rounds} interleaved frames each; {clock}\n\n",
+            self.spec.source.name,
+            self.plan.lenses.len(),
+        );
+        let stages: Vec<&str> =
+            self.measured.first().map(Measured::stages).unwrap_or_default().iter().map(|s| s.0).collect();
+        let heads: String = stages.iter().map(|stage| format!(" {stage:>12}")).collect();
+        text += &format!("{:<8} {:>12} {:>8}{heads}\n", "", "milliseconds", "ratio");
+        for m in &self.measured {
+            let ratio = m.ratio_to(&self.measured[0]);
+            let parts: String = m.stages().iter().map(|(_, seconds)| format!(" {:>12.2}", 1e3 * seconds)).collect();
+            text += &format!("{:<8} {:>12.2} {ratio:>8.2}{parts}\n", m.name, 1e3 * m.median());
+        }
+        text += &format!("\nlenses keep {} on the device\n", bytes(self.storage.total()));
+        for (what, count) in self.storage.parts() {
+            text += &format!("{what:>14} {:>12}\n", bytes(count));
+        }
+        text
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let mut value = crate::bench::json(&self.verdicts(), &self.measured);
+        value["spec"] = json!(self.spec.source.name);
+        value["adapter"] = json!(self.adapter);
+        value["size"] = json!(self.plan.view.size);
+        value["samples"] = json!(self.plan.samples);
+        value["lenses"] = json!(self.plan.lenses.len());
+        value["clock"] = json!(if self.device_clock { "device" } else { "wall" });
+        let mut storage: serde_json::Map<String, serde_json::Value> =
+            self.storage.parts().iter().map(|(what, count)| (what.replace(' ', "_"), json!(count))).collect();
+        storage.insert("total".into(), json!(self.storage.total()));
+        value["lens_storage"] = storage.into();
+        value
+    }
+}
+
+fn bytes(count: u64) -> String {
+    match count {
+        0..1024 => format!("{count} B"),
+        1024..1_048_576 => format!("{:.1} KiB", count as f64 / 1024.0),
+        _ => format!("{:.1} MiB", count as f64 / 1_048_576.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Model;
+
+    #[test]
+    fn the_picture_without_lenses_has_the_same_depths() {
+        let text = "[scene]\nfile = \"none.glb\"\n[camera]\neye = [0, 0, 9]\ntarget = [0, 0, 0]\n\
+            [[lens]]\nname = \"a\"\nfilters = [\"erase\"]\nshape.sphere = { center = [0, 0, 0], radius = 3 }\n";
+        let spec = Spec::parse(text, "a test", "".as_ref()).expect("the spec is right");
+        let scene = Scene::new(vec![Model::default()], Vec::new());
+        let plan = Plan::new(&spec, &scene).expect("the plan is right");
+        let fitted = Plan::new(&Spec { lenses: Vec::new(), ..spec.clone() }, &scene).expect("the plan is right");
+        assert_ne!(fitted.view, plan.view, "lenses count where depths are fitted");
+        let bare = without_lenses(&spec, &scene, &plan).expect("the plan is right");
+        assert_eq!((bare.view, bare.lenses.len()), (plan.view, 0));
+    }
+
+    #[test]
+    fn amounts_have_units() {
+        assert_eq!([0, 1023, 1536, 3 << 20].map(bytes), ["0 B", "1023 B", "1.5 KiB", "3.0 MiB"]);
+    }
+}
