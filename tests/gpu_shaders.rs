@@ -16,11 +16,15 @@ const LITTLE: Needs = Needs {
     part_words: 1,
     lenses: false,
     compounds: false,
+    forms: [false; 4],
     movers: false,
     soft: false,
     glass: false,
     translucent: false,
     textures: false,
+    vertex_colors: false,
+    lights: 0,
+    stages: [false; 3],
 };
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const MOST: Needs = Needs {
@@ -28,11 +32,15 @@ const MOST: Needs = Needs {
     part_words: 3,
     lenses: true,
     compounds: true,
+    forms: [true; 4],
     movers: true,
     soft: true,
     glass: true,
     translucent: true,
     textures: true,
+    vertex_colors: true,
+    lights: 3,
+    stages: [true; 3],
 };
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 19;
@@ -171,7 +179,6 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             ambient,
             texture_space,
             background,
-            light_count,
             fragment_capacity,
             active_tiles,
             target_is_srgb,
@@ -193,9 +200,6 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             row_x,
             row_y,
             row_z,
-            normal_x,
-            normal_y,
-            normal_z,
             material,
             instance,
             first_triangle,

@@ -1,8 +1,10 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
 // Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, and
 // `PART_WORDS`, that of a set of one lens's parts; and flags, see `Needs`: whether there are lenses or rules (`LENSES`),
-// some lens has several parts or a mesh (`COMPOUNDS`), moves content (`MOVERS`), is soft (`SOFT`) or has a surface
-// (`GLASS`), something may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`).
+// some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`, `CAPSULES`,
+// `HALF_SPACES`), some lens moves content (`MOVERS`), is soft (`SOFT`) or has a surface (`GLASS`), something may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a
+// colour for each vertex (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`,
+// `COVERAGE_FILTERS`); and `LIGHTS`, the number of lights.
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
@@ -51,7 +53,6 @@ struct Frame {
     texture_space: vec4f,
     // Linear light, straight alpha.
     background: vec4f,
-    light_count: u32,
     fragment_capacity: u32,
     active_tiles: u32,
     // Not 0: the target encodes sRGB itself.
@@ -67,6 +68,7 @@ struct Frame {
     pad_a: u32,
     pad_b: u32,
     pad_c: u32,
+    pad_d: u32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,
@@ -87,10 +89,6 @@ struct Item {
     row_x: vec4f,
     row_y: vec4f,
     row_z: vec4f,
-    // Rows of the map of normals.
-    normal_x: vec4f,
-    normal_y: vec4f,
-    normal_z: vec4f,
     material: u32,
     // Its number in the plan.
     instance: u32,

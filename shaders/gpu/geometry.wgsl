@@ -1,32 +1,59 @@
 // Triangles of items, and where a pixel's ray meets them.
 
+// Where an item is shown.
+struct Placement {
+    row_x: vec4f,
+    row_y: vec4f,
+    row_z: vec4f,
+    base_vertex: u32,
+}
+
 struct Triangle {
     a: vec3f,
     b: vec3f,
     c: vec3f,
     // Numbers of the corners within the primitive.
     corners: vec3u,
+    placement: Placement,
 }
 
-fn to_eye(item: u32, local: vec3f) -> vec3f {
-    let p = vec4f(local, 1.0);
-    return vec3f(dot(items[item].row_x, p), dot(items[item].row_y, p), dot(items[item].row_z, p));
-}
-
-fn vertex_position(item: u32, corner: u32) -> vec3f {
-    let at = 3u * (items[item].base_vertex + corner);
-    return to_eye(item, vec3f(positions[at], positions[at + 1u], positions[at + 2u]));
+fn placed(placement: Placement, corner: u32) -> vec3f {
+    let at = 3u * (placement.base_vertex + corner);
+    let p = vec4f(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
+    return vec3f(dot(placement.row_x, p), dot(placement.row_y, p), dot(placement.row_z, p));
 }
 
 fn fetch_triangle(item: u32, triangle: u32) -> Triangle {
     let at = items[item].first_index + 3u * triangle;
     let corners = vec3u(indices[at], indices[at + 1u], indices[at + 2u]);
+    // Read once: where a pass writes to a buffer, compilers may not merge what it reads.
+    let placement = Placement(items[item].row_x, items[item].row_y, items[item].row_z, items[item].base_vertex);
     return Triangle(
-        vertex_position(item, corners.x),
-        vertex_position(item, corners.y),
-        vertex_position(item, corners.z),
+        placed(placement, corners.x),
+        placed(placement, corners.y),
+        placed(placement, corners.z),
         corners,
+        placement,
     );
+}
+
+// A direction of the item's own space, as shown.
+fn as_shown(placement: Placement, v: vec3f) -> vec3f {
+    return vec3f(dot(placement.row_x.xyz, v), dot(placement.row_y.xyz, v), dot(placement.row_z.xyz, v));
+}
+
+// A normal of the item's own space, as shown, of any length. The inverse transposed of the map is, but for a factor,
+// the matrix of its cofactors.
+fn normal_as_shown(placement: Placement, n: vec3f) -> vec3f {
+    let largest = max(abs(placement.row_x.xyz), max(abs(placement.row_y.xyz), abs(placement.row_z.xyz)));
+    let scale = 1.0 / max(max(largest.x, max(largest.y, largest.z)), 1e-30);
+    let x = placement.row_x.xyz * scale;
+    let y = placement.row_y.xyz * scale;
+    let z = placement.row_z.xyz * scale;
+    let yz = cross(y, z);
+    let turned = vec3f(dot(yz, n), dot(cross(z, x), n), dot(cross(x, y), n));
+    // A mirror turns them round.
+    return select(turned, -turned, dot(x, yz) < 0.0);
 }
 
 // Where a pixel's ray meets a triangle of an item.

@@ -33,10 +33,12 @@ fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
         return Set();
     }
     let at = layers_at(tile, pixel);
-    for (var layer = layers[at]; layer > 0u; layer -= 1u) {
-        if is_begun(at, layer - 1u, depth) {
-            return layer_set(at, layer - 1u);
+    var layer = layers[at];
+    loop {
+        layer -= 1u;
+        continuing {
+            break if layer == 0u || is_begun(at, layer, depth);
         }
     }
-    return Set();
+    return layer_set(at, layer);
 }

@@ -60,21 +60,15 @@ fn anchored(ray: LocalRay, center: vec3f) -> Anchored {
 fn part_span(part: u32, lens_ray: LensRay) -> Span {
     let ray = local_ray(part, lens_ray);
     var span = no_span();
-    switch parts[part].form {
-        case FORM_SPHERE: {
-            span = ball_span(ray, vec3f(0.0));
-        }
-        case FORM_CONE: {
-            span = cone_span(ray, parts[part].r0, parts[part].r1);
-        }
-        case FORM_CAPSULE: {
-            span = capsule_span(ray, parts[part].length);
-        }
-        case FORM_HALF_SPACES: {
-            span = half_space_span(part, lens_ray);
-        }
-        default: {
-        }
+    let form = parts[part].form;
+    if SPHERES && form == FORM_SPHERE {
+        span = ball_span(ray, vec3f(0.0));
+    } else if CONES && form == FORM_CONE {
+        span = cone_span(ray, parts[part].r0, parts[part].r1);
+    } else if CAPSULES && form == FORM_CAPSULE {
+        span = capsule_span(ray, parts[part].length);
+    } else if HALF_SPACES && form == FORM_HALF_SPACES {
+        span = half_space_span(part, lens_ray);
     }
     span.hit = span.hit && span.exit > span.entry;
     return span;

@@ -81,23 +81,14 @@ fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view
     var normal = geometric;
     if items[item].normals != NONE {
         let n = interpolated3(items[item].normals, t.corners, weights);
-        let turned = vec3f(
-            dot(items[item].normal_x.xyz, n),
-            dot(items[item].normal_y.xyz, n),
-            dot(items[item].normal_z.xyz, n),
-        );
-        normal = normalize_or(turned, geometric);
+        normal = normalize_or(normal_as_shown(t.placement, n), geometric);
     }
     if TEXTURES && (items[item].slots & (1u << SLOT_NORMAL)) != 0u {
         var tangent = vec4f(0.0);
         if items[item].tangents != NONE {
             let along = interpolated4(items[item].tangents, t.corners, weights);
-            let turned = vec3f(
-                dot(items[item].row_x.xyz, along.xyz),
-                dot(items[item].row_y.xyz, along.xyz),
-                dot(items[item].row_z.xyz, along.xyz),
-            );
-            tangent = vec4f(normalize_or(turned, vec3f(0.0)), select(1.0, -1.0, along.w < 0.0));
+            let shown = normalize_or(as_shown(t.placement, along.xyz), vec3f(0.0));
+            tangent = vec4f(shown, select(1.0, -1.0, along.w < 0.0));
         } else {
             let uv = slot_uv(item, t.corners, materials[items[item].material].slots[SLOT_NORMAL]);
             tangent = triangle_tangent(t.a, t.b, t.c, uv.a, uv.b, uv.c, normal);
@@ -163,16 +154,22 @@ fn material_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> 
     s.normal = shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz);
     s.view = view;
     s.factor = materials[m].base_color;
-    if items[item].colors != NONE {
+    if VERTEX_COLORS && items[item].colors != NONE {
         s.factor *= interpolated4(items[item].colors, t.corners, weights);
     }
     s.texel = texels[SLOT_BASE_COLOR];
     s.metallic = materials[m].metallic * texels[SLOT_METALLIC_ROUGHNESS].z;
     s.roughness = materials[m].roughness * texels[SLOT_METALLIC_ROUGHNESS].y;
     s.emissive = materials[m].emissive * texels[SLOT_EMISSIVE].xyz;
-    s.occlusion = 1.0 + materials[m].occlusion_strength * (texels[SLOT_OCCLUSION].x - 1.0);
-    s.alpha_mode = materials[m].alpha_mode;
-    s.alpha_cutoff = materials[m].alpha_cutoff;
+    s.occlusion = 1.0;
+    if TEXTURES {
+        s.occlusion += materials[m].occlusion_strength * (texels[SLOT_OCCLUSION].x - 1.0);
+    }
+    s.alpha_mode = ALPHA_OPAQUE;
+    if TRANSLUCENT {
+        s.alpha_mode = materials[m].alpha_mode;
+        s.alpha_cutoff = materials[m].alpha_cutoff;
+    }
     s.opacity = 1.0;
     s.unlit = f32(materials[m].unlit);
     return s;
@@ -184,7 +181,7 @@ fn lit(s: Surface) -> vec3f {
         return vec3f(0.0);
     }
     var sum = ambient_light(s, frame.ambient.w, frame.ambient.xyz);
-    for (var i = 0u; i < frame.light_count; i += 1u) {
+    for (var i = 0u; i < LIGHTS; i += 1u) {
         sum += lit_by(lights[i], s);
     }
     return sum;
@@ -198,38 +195,75 @@ fn shade(f: Fragment, at: Meeting, ray: PixelRay) -> ShadedFragment {
     if !LENSES {
         return ShadedFragment(emitted(surface, lit(surface)), surface_opacity(surface), 1.0, surface.normal);
     }
-    var shaded = Shaded(vec3f(0.0), 0.0, 1.0);
-    // Bit s: some filter of the stack acts in stage s.
-    var stages = 1u << STAGE_SURFACE;
-    for (var stage = STAGE_SURFACE; stage <= STAGE_COVERAGE; stage += 1u) {
-        if stage == STAGE_COLOR {
-            shaded = Shaded(emitted(surface, lit(surface)), surface_opacity(surface), 1.0);
-        }
-        for (var w = 0u; w < select(0u, WORDS, (stages & (1u << stage)) != 0u); w += 1u) {
-            var rest = f.stack.words[w];
-            while rest != 0u {
-                let rank = w * 32u + firstTrailingBit(rest);
-                rest = rest & (rest - 1u);
-                let amount = soft_amount(rank, f.item, surface.position);
-                let end = lenses[rank].first_op + lenses[rank].op_count;
-                for (var i = lenses[rank].first_op; i < end; i += 1u) {
-                    stages |= 1u << op_stage(ops[i].kind);
-                    if stage == STAGE_SURFACE {
-                        var texel = vec4f(1.0);
-                        if TEXTURES && ops[i].kind == OP_TEXTURE {
-                            let read = filter_read(ops[i], rank, f.item, t, weights, surface, ray);
-                            texel = sample_texture(read.texture, read.uv, read.footprint);
-                        }
-                        surface = faded_surface(surface, filter_surface(ops[i], surface, texel), amount);
-                    } else if stage == STAGE_COLOR {
-                        shaded.color = mix(shaded.color, filter_color(ops[i], shaded.color), amount);
-                    } else if ops[i].kind == OP_WIREFRAME {
-                        let edge = wire_distance(ray, t.a, t.b, t.c);
-                        shaded = faded_shaded(shaded, filter_wireframe(ops[i], shaded, edge), amount);
-                    }
+    if SURFACE_FILTERS {
+        surface = surface_stage(surface, f, at, ray);
+    }
+    var shaded = Shaded(emitted(surface, lit(surface)), surface_opacity(surface), 1.0);
+    if COLOR_FILTERS {
+        shaded.color = color_stage(shaded.color, f, surface.position);
+    }
+    if COVERAGE_FILTERS {
+        shaded = coverage_stage(shaded, f, at, ray, surface.position);
+    }
+    return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, surface.normal);
+}
+
+fn surface_stage(material: Surface, f: Fragment, at: Meeting, ray: PixelRay) -> Surface {
+    var s = material;
+    var place = stack_start(f.stack);
+    if place.found {
+        loop {
+            if is_filter(place) {
+                let op = ops[place.op];
+                var texel = vec4f(1.0);
+                if TEXTURES && op.kind == OP_TEXTURE {
+                    let read = filter_read(op, place.rank, f.item, at.triangle, at.hit.weights, s, ray);
+                    texel = sample_texture(read.texture, read.uv, read.footprint);
                 }
+                s = faded_surface(s, filter_surface(op, s, texel), soft_amount(place.rank, f.item, s.position));
+            }
+            continuing {
+                place = stack_next(place);
+                break if !place.found;
             }
         }
     }
-    return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, surface.normal);
+    return s;
+}
+
+fn color_stage(lit: vec3f, f: Fragment, position: vec3f) -> vec3f {
+    var color = lit;
+    var place = stack_start(f.stack);
+    if place.found {
+        loop {
+            if is_filter(place) {
+                let amount = soft_amount(place.rank, f.item, position);
+                color = mix(color, filter_color(ops[place.op], color), amount);
+            }
+            continuing {
+                place = stack_next(place);
+                break if !place.found;
+            }
+        }
+    }
+    return color;
+}
+
+fn coverage_stage(full: Shaded, f: Fragment, at: Meeting, ray: PixelRay, position: vec3f) -> Shaded {
+    let edge = wire_distance(ray, at.triangle.a, at.triangle.b, at.triangle.c);
+    var shaded = full;
+    var place = stack_start(f.stack);
+    if place.found {
+        loop {
+            if is_filter(place) && ops[place.op].kind == OP_WIREFRAME {
+                let amount = soft_amount(place.rank, f.item, position);
+                shaded = faded_shaded(shaded, filter_wireframe(ops[place.op], shaded, edge), amount);
+            }
+            continuing {
+                place = stack_next(place);
+                break if !place.found;
+            }
+        }
+    }
+    return shaded;
 }

@@ -109,7 +109,7 @@ fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, insid
     if !verdict.displayed {
         discard;
     }
-    if may_be_translucent(item, verdict.stack) {
+    if TRANSLUCENT && may_be_translucent(item, verdict.stack) {
         append(pixel, depth, item, triangle);
         discard;
     }

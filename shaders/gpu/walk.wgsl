@@ -46,7 +46,10 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
         let removed_by = item_mask(item, MASK_REMOVED_BY, word);
         let movers = item_mask(item, MASK_MOVERS, word);
         var rest = applying_word(item, inside, word);
-        while rest != 0u {
+        if rest == 0u {
+            continue;
+        }
+        loop {
             let bit = firstLeadingBit(rest);
             let flag = 1u << bit;
             let rank = word * 32u + bit;
@@ -81,6 +84,9 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
                 shown = true;
             } else if !shown && (removed_by & flag) != 0u {
                 removed = true;
+            }
+            continuing {
+                break if rest == 0u;
             }
         }
     }

@@ -102,7 +102,6 @@ impl FrameShape<'_> {
             ambient: plan.lighting.up.extend(plan.lighting.ambient).to_array(),
             texture_space: (space.origin.as_dvec3() - view.eye).as_vec3().extend(space.scale).to_array(),
             background: plan.background,
-            light_count: plan.lighting.lights.len() as u32,
             fragment_capacity: self.fragment_capacity,
             active_tiles: self.tiles.active,
             target_is_srgb: u32::from(self.target_is_srgb),
@@ -111,7 +110,7 @@ impl FrameShape<'_> {
             after_depth: self.after.map_or(0.0, |place| place.depth),
             after_key: self.after.map_or(u32::MAX, |place| place.key),
             after_item: self.after.map_or(0, |place| place.item),
-            pad: [0; 3],
+            pad: [0; 4],
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
         }

@@ -3,7 +3,7 @@
 use glam::DAffine3;
 
 use super::draws::{Piece, shown_from_local};
-use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, StepRecord, extended, rows, words_of};
+use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, StepRecord, rows, words_of};
 use crate::plan::{Plan, Step};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
 
@@ -55,15 +55,10 @@ fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRec
     let mut around = shown_from_local(scene, item, instance);
     around.translation -= plan.view.eye;
     let [row_x, row_y, row_z] = rows(&around);
-    // The rows of the inverse transposed are the columns of the inverse.
-    let normals = around.matrix3.inverse();
     ItemRecord {
         row_x,
         row_y,
         row_z,
-        normal_x: extended(normals.x_axis),
-        normal_y: extended(normals.y_axis),
-        normal_z: extended(normals.z_axis),
         material: item.material as u32,
         instance: piece.instance as u32,
         first_triangle: piece.key(),

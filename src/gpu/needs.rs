@@ -1,8 +1,9 @@
 //! What the shaders of a plan must be able to do.
 
 use super::program::condition;
+use crate::lens::Form;
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Primitive, Scene};
 
 /// Shaders are compiled for it: what a plan does not need costs it nothing. Where things are makes no difference, so
 /// moving a lens or the camera compiles nothing.
@@ -16,6 +17,8 @@ pub struct Needs {
     pub lenses: bool,
     /// Some lens has several parts or a mesh.
     pub compounds: bool,
+    /// Some part of a lens is a sphere, a cone, a capsule, an intersection of half-spaces.
+    pub forms: [bool; 4],
     /// Some lens moves content.
     pub movers: bool,
     /// Some lens is soft.
@@ -26,6 +29,12 @@ pub struct Needs {
     pub translucent: bool,
     /// Some material or filter has a texture.
     pub textures: bool,
+    /// Some primitive has colours of its own.
+    pub vertex_colors: bool,
+    /// How many there are.
+    pub lights: u32,
+    /// Some filter acts on surfaces before they are lit, on lit colours, on coverage.
+    pub stages: [bool; 3],
 }
 
 impl Needs {
@@ -39,11 +48,15 @@ impl Needs {
             part_words: words(parts.chain(names).max().unwrap_or(1)),
             lenses: !plan.lenses.is_empty() || !plan.rules.is_empty(),
             compounds: plan.lenses.iter().any(|lens| lens.volume.lone().is_none()),
+            forms: has_forms(plan),
             movers: plan.items.iter().any(|item| !item.movers.is_empty()),
             soft: plan.lenses.iter().any(|lens| lens.soft > 0.0),
             glass: plan.lenses.iter().any(|lens| lens.glass.is_some()),
             translucent: item_is_translucent || !plan.translucent().is_empty(),
             textures: !scene.textures.textures.is_empty(),
+            vertex_colors: primitives(scene).any(|p| p.colors.is_some()),
+            lights: plan.lighting.lights.len() as u32,
+            stages: [0, 1, 2].map(|stage| plan.ops.iter().any(|op| op.acts_in(stage))),
         }
     }
 
@@ -57,32 +70,74 @@ impl Needs {
             part_words: 1,
             lenses: false,
             compounds: false,
+            forms: [false; 4],
             movers: false,
             soft: false,
             glass: false,
+            stages: [false; 3],
             translucent: plan.items.iter().any(|item| item.translucent),
             ..self
         }
     }
 
+    /// The same for passes that find fragments and shade none.
+    pub fn without_shading(self) -> Self {
+        Self { glass: false, textures: false, vertex_colors: false, lights: 0, stages: [false; 3], ..self }
+    }
+
     /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything.
     pub fn for_accounts(self) -> Self {
-        Self { lenses: true, glass: true, translucent: true, textures: true, ..self }
+        Self {
+            lenses: true,
+            glass: true,
+            translucent: true,
+            textures: true,
+            vertex_colors: true,
+            stages: [true; 3],
+            ..self
+        }
     }
 
     /// The constants that the shaders ask.
     pub fn wgsl(&self) -> String {
-        let Self { set_words, part_words, .. } = self;
+        let Self { set_words, part_words, lights, .. } = self;
         let flags = [
             ("LENSES", self.lenses),
             ("COMPOUNDS", self.compounds),
+            ("SPHERES", self.forms[0]),
+            ("CONES", self.forms[1]),
+            ("CAPSULES", self.forms[2]),
+            ("HALF_SPACES", self.forms[3]),
             ("MOVERS", self.movers),
             ("SOFT", self.soft),
             ("GLASS", self.glass),
             ("TRANSLUCENT", self.translucent),
             ("TEXTURES", self.textures),
+            ("VERTEX_COLORS", self.vertex_colors),
+            ("SURFACE_FILTERS", self.stages[0]),
+            ("COLOR_FILTERS", self.stages[1]),
+            ("COVERAGE_FILTERS", self.stages[2]),
         ];
         let flags = flags.map(|(name, value)| format!("const {name}: bool = {value};\n")).concat();
-        format!("const WORDS: u32 = {set_words}u;\nconst PART_WORDS: u32 = {part_words}u;\n{flags}")
+        let counts = [("WORDS", set_words), ("PART_WORDS", part_words), ("LIGHTS", lights)];
+        counts.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat() + &flags
     }
+}
+
+fn primitives(scene: &Scene) -> impl Iterator<Item = &Primitive> {
+    scene.models.iter().flat_map(|model| &model.meshes).flat_map(|mesh| &mesh.primitives)
+}
+
+fn has_forms(plan: &Plan) -> [bool; 4] {
+    let mut found = [false; 4];
+    for solid in plan.lenses.iter().flat_map(|lens| &lens.volume.parts) {
+        match solid.form {
+            Form::Sphere => found[0] = true,
+            Form::Cone { .. } => found[1] = true,
+            Form::Capsule { .. } => found[2] = true,
+            Form::HalfSpaces { .. } => found[3] = true,
+            Form::Mesh(_) | Form::Empty => {}
+        }
+    }
+    found
 }

@@ -52,7 +52,6 @@ pub struct FrameRecord {
     pub ambient: [f32; 4],
     pub texture_space: [f32; 4],
     pub background: [f32; 4],
-    pub light_count: u32,
     pub fragment_capacity: u32,
     pub active_tiles: u32,
     pub target_is_srgb: u32,
@@ -64,7 +63,7 @@ pub struct FrameRecord {
     pub after_key: u32,
     /// The number of its record.
     pub after_item: u32,
-    pub pad: [u32; 3],
+    pub pad: [u32; 4],
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }
@@ -77,9 +76,6 @@ pub struct ItemRecord {
     pub row_x: [f32; 4],
     pub row_y: [f32; 4],
     pub row_z: [f32; 4],
-    pub normal_x: [f32; 4],
-    pub normal_y: [f32; 4],
-    pub normal_z: [f32; 4],
     pub material: u32,
     /// Into `Plan::instances`.
     pub instance: u32,

@@ -182,7 +182,7 @@ impl Renderer {
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
         let groups = self.groups(device, group, &targets, &needed, maps.as_ref());
-        let pipelines = self.store.get(needs);
+        let pipelines = self.store.get(needs.without_shading());
         Ok(Job {
             needs,
             samples,
@@ -206,7 +206,7 @@ impl Renderer {
                 aov: options.aovs.then(|| self.store.get(needs.for_accounts()).aov(&self.store)),
             },
             resolve: Resolve {
-                inside: pipelines.resolve(&self.store),
+                inside: self.store.get(needs).resolve(&self.store),
                 outside: self.store.get(needs.outside(plan)).resolve(&self.store),
             },
             targets,

@@ -46,7 +46,7 @@ const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
 /// Who acts on a fragment.
 const CLASSIFYING: &[&str] = &[SET, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
 /// What a fragment looks like.
-const SHADING: &[&str] = &[TEXTURE, SOFT, SHADE, FRAGMENTS];
+const SHADING: &[&str] = &[TEXTURE, SOFT, STACK, SHADE, FRAGMENTS];
 
 const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
@@ -58,6 +58,7 @@ const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
 const MOVED: &str = include_str!("../../shaders/gpu/moved.wgsl");
 const WALK: &str = include_str!("../../shaders/gpu/walk.wgsl");
 const SOFT: &str = include_str!("../../shaders/gpu/soft.wgsl");
+const STACK: &str = include_str!("../../shaders/gpu/stack.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const DEPTH_MAP: &str = include_str!("../../shaders/gpu/depth_map.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");

@@ -79,6 +79,12 @@ impl Op {
         }
     }
 
+    /// Whether it does anything in a stage: 0 on surfaces before they are lit, 1 on lit colours, 2 on coverage.
+    pub fn acts_in(&self, stage: u32) -> bool {
+        // The alpha of a tint counts on the surface.
+        wgsl::op_stage(naga_rust_rt::Scalar(self.kind)) == stage || (stage == 0 && self.kind == wgsl::OP_TINT.0)
+    }
+
     /// Whether a fragment under this filter may let through what lies behind it.
     pub fn may_be_translucent(&self) -> bool {
         let color_alpha = self.a[3] < 1.0;
