@@ -26,7 +26,7 @@ pub enum Projection {
 }
 
 /// A ray whose direction has length one along the camera's forward axis: its parameter is the depth.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ray {
     pub origin: DVec3,
     pub direction: DVec3,

@@ -42,8 +42,8 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     let at = (pixel.y * frame.window_size.x + pixel.x) * MAP_WORDS;
     maps[at] = layer_count(tile, pixel);
     maps[at + 1u] = found;
-    maps[at + 2u] = items[visible.item].instance;
-    maps[at + 3u] = items[visible.item].first_triangle + visible.triangle;
+    maps[at + 2u] = visible.item;
+    maps[at + 3u] = triangle_number(visible.item, visible.triangle);
     maps[at + 4u] = bitcast<u32>(visible.depth);
     maps[at + 5u] = bitcast<u32>(normal.x);
     maps[at + 6u] = bitcast<u32>(normal.y);

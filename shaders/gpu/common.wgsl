@@ -1,10 +1,11 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
-// Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, and
-// `PART_WORDS`, that of a set of one lens's parts; and flags, see `Needs`: whether there are lenses or rules (`LENSES`),
-// some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`, `CAPSULES`,
-// `HALF_SPACES`), some lens moves content (`MOVERS`), is soft (`SOFT`) or has a surface (`GLASS`), something may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a
-// colour for each vertex (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`,
-// `COVERAGE_FILTERS`); and `LIGHTS`, the number of lights.
+// Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, `PART_WORDS`,
+// that of a set of one lens's parts, and `LIGHTS`, the number of lights; and flags, see `Needs`: whether there are lenses
+// or rules (`LENSES`), rays are cut into layers (`LAYERS`), some lens takes something away or shows something
+// (`TAKEN_AWAY`), some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`,
+// `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`), is soft (`SOFT`) or has a surface (`GLASS`), something
+// may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
+// (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`).
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
@@ -83,18 +84,19 @@ const MASK_SHOWN_BY: u32 = 2u;
 const MASK_REMOVED_BY: u32 = 3u;
 const MASK_MOVERS: u32 = 4u;
 
-// A way in which an item is shown, or a chunk of its triangles: twin of `records::ItemRecord`, and the item's masks.
+// An instance of an item, by its number in the plan: twin of `records::ItemRecord`, and the item's masks.
 struct Item {
     // Rows of the map from local space to where it is shown.
     row_x: vec4f,
     row_y: vec4f,
     row_z: vec4f,
     material: u32,
-    // Its number in the plan.
-    instance: u32,
+    // The number of its item's first triangle among all.
     first_triangle: u32,
     flags: u32,
     first_index: u32,
+    // Where the numbers start that its triangles have in their primitive, in `numbers`.
+    first_number: u32,
     base_vertex: u32,
     // Where each attribute starts in `attributes`, or NONE.
     normals: u32,
@@ -109,8 +111,6 @@ struct Item {
     // How its rays are moved, in `steps`.
     first_step: u32,
     step_count: u32,
-    // The vertex at which its first triangle starts, of all vertices.
-    first_vertex: u32,
     masks: array<u32, 5u * WORDS>,
 }
 
@@ -143,7 +143,7 @@ struct Lens {
     // Its parts in `parts`; of a rule the sets of its names in `lens_words`.
     first_part: u32,
     part_count: u32,
-    // Its program in `lens_words`; none where a lens is one convex part.
+    // Its program in `lens_words`; none where a lens is one part.
     first_token: u32,
     token_count: u32,
     first_op: u32,
@@ -154,9 +154,6 @@ struct Lens {
 }
 
 const PART_FLAT: u32 = 1u;
-// Its crossings come from a depth map.
-const PART_DEPTH_MAP: u32 = 2u;
-const PART_HOLDS_EYE: u32 = 4u;
 
 // One solid of a lens volume, convex but for FORM_MESH: twin of `records::PartRecord`.
 struct Part {
@@ -189,19 +186,17 @@ struct Part {
     r0: f32,
     r1: f32,
     length: f32,
-    // Where its depth map starts in `layers`, and the pixels of the window that it covers.
-    map_first: u32,
-    map_min: vec2u,
-    map_size: vec2u,
     // A mesh in `lens_words`, and for how many of its crossings each pixel has room.
     first_node: u32,
     node_count: u32,
     first_triangle: u32,
     first_vertex: u32,
     crossing_room: u32,
-    pad_a: u32,
-    pad_b: u32,
-    pad_c: u32,
+    // Of a mesh whose faces are listed: its triangles in the picture, four vectors each in `lens_data` (see
+    // `cells::ProjectedMesh`), and the point of the picture that they start from.
+    first_projected: u32,
+    pad: u32,
+    origin: vec2f,
 }
 
 // Twin of `scene::TextureSlot`.
@@ -257,6 +252,7 @@ struct TextureInfo {
 @group(0) @binding(4) var<storage, read> textures: array<TextureInfo>;
 @group(0) @binding(5) var pages: texture_2d_array<f32>;
 @group(0) @binding(6) var pages_srgb: texture_2d_array<f32>;
+@group(0) @binding(7) var<storage, read> numbers: array<u32>;
 
 // The plan: one frame.
 @group(1) @binding(0) var<storage, read> frame: Frame;
@@ -269,8 +265,8 @@ struct TextureInfo {
 @group(1) @binding(6) var<storage, read> lens_words: array<u32>;
 @group(1) @binding(7) var<storage, read> ops: array<Op>;
 @group(1) @binding(8) var<storage, read> lights: array<Light>;
-// Four words a tile (see `TileRecord`), then the numbers of all tiles, first of those that lenses touch, then the lists
-// of parts.
+// Four words a tile (see `TileRecord`), then the numbers of all tiles, first of those that lenses touch, then the parts
+// of each tile (see `part_at`), then the faces of their cells.
 @group(1) @binding(9) var<storage, read> tiles: array<u32>;
 
 struct TileRecord {
@@ -298,6 +294,44 @@ fn tile_rows() -> u32 {
 // Of all tiles, first those that lenses touch.
 fn tile_in_order(index: u32) -> u32 {
     return tiles[4u * tile_columns() * tile_rows() + index];
+}
+
+// Words of a part of a tile; twin of `tiles::PART_WORDS`.
+const PART_WORDS_OF_TILE: u32 = 3u;
+
+// A part of a lens as a ray asks it.
+struct AskedPart {
+    part: u32,
+    // The planes or triangles that may matter, listed in `tiles`; NONE: all of them.
+    first: u32,
+    end: u32,
+}
+
+fn with_all_faces(part: u32) -> AskedPart {
+    return AskedPart(part, NONE, NONE);
+}
+
+// The number of a part of a tile.
+fn part_of_tile(tile: TileRecord, entry: u32) -> u32 {
+    return tiles[tile.first_part + PART_WORDS_OF_TILE * entry];
+}
+
+// The same as a pixel of the tile asks it: with the faces listed for the cell of the tile that the pixel is in.
+fn part_at(tile: TileRecord, entry: u32, pixel: vec2u) -> AskedPart {
+    let at = tile.first_part + PART_WORDS_OF_TILE * entry;
+    let part = tiles[at];
+    if (!HALF_SPACES && !COMPOUNDS) || tiles[at + 1u] == NONE {
+        return with_all_faces(part);
+    }
+    let side = tiles[at + 2u];
+    let cell = (pixel % TILE) * side / TILE;
+    let place = tiles[at + 1u] + cell.y * side + cell.x;
+    return AskedPart(part, tiles[place], tiles[place + 1u]);
+}
+
+// Whether a lens has several parts or a mesh: a ray may cross it often.
+fn is_compound(rank: u32) -> bool {
+    return COMPOUNDS && (lenses[rank].token_count != 0u || parts[lenses[rank].first_part].form == FORM_MESH);
 }
 
 // The pixel in a tile's top left corner.

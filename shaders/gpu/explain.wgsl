@@ -17,7 +17,7 @@ fn explain() {
     let met = meeting(pick.item, pick.triangle, ray);
     let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), met, ray);
     let weights = met.hit.weights;
-    report[1] = items[pick.item].instance;
+    report[1] = pick.item;
     report[2] = pick.key;
     report[3] = pick.item;
     report[4] = bitcast<u32>(pick.depth);

@@ -28,7 +28,7 @@ fn opaque_at(pixel: vec2u, ray: PixelRay) -> Pick {
         return nothing();
     }
     let item = seen.x - 1u;
-    return Pick(meeting(item, seen.y, ray).hit.depth, items[item].first_triangle + seen.y, item, seen.y, true);
+    return Pick(meeting(item, seen.y, ray).hit.depth, triangle_number(item, seen.y), item, seen.y, true);
 }
 
 // The nearest listed fragment behind `after`.
@@ -38,7 +38,7 @@ fn next_listed(pixel: vec2u, after: Pick) -> Pick {
     while slot != 0u {
         let f = fragments[slot - 1u];
         slot = f.w;
-        let candidate = Pick(bitcast<f32>(f.x), items[f.y].first_triangle + f.z, f.y, f.z, true);
+        let candidate = Pick(bitcast<f32>(f.x), triangle_number(f.y, f.z), f.y, f.z, true);
         if is_before(after, candidate) && is_before(candidate, best) {
             best = candidate;
         }
@@ -65,7 +65,8 @@ fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
 }
 
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {
-    if !LENSES {
+    // Without filters that act on what is seen nobody asks.
+    if !LENSES || !(SURFACE_FILTERS || COLOR_FILTERS || COVERAGE_FILTERS) {
         return Fragment(pick.item, pick.triangle, pick.depth, Set(), Set());
     }
     let verdict = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth));

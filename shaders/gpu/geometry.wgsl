@@ -37,6 +37,11 @@ fn fetch_triangle(item: u32, triangle: u32) -> Triangle {
     );
 }
 
+// The number of a drawn triangle of an item among all: at one depth the lower is in front.
+fn triangle_number(item: u32, triangle: u32) -> u32 {
+    return items[item].first_triangle + numbers[items[item].first_number + triangle];
+}
+
 // A direction of the item's own space, as shown.
 fn as_shown(placement: Placement, v: vec3f) -> vec3f {
     return vec3f(dot(placement.row_x.xyz, v), dot(placement.row_y.xyz, v), dot(placement.row_z.xyz, v));

@@ -25,16 +25,17 @@ fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
     var best = no_glass(FAR_AWAY, NONE);
     var compounds = false;
     for (var i = 0u; i < tile.part_count; i += 1u) {
-        let part = tiles[tile.first_part + i];
+        let asked = part_at(tile, i, pixel);
+        let part = asked.part;
         let rank = parts[part].lens;
         if (lenses[rank].flags & LENS_GLASS) == 0u {
             continue;
         }
-        if lenses[rank].token_count != 0u {
+        if is_compound(rank) {
             compounds = true;
             continue;
         }
-        let span = part_span(part, ray);
+        let span = part_span(asked, ray);
         for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
             let hit = GlassHit(select(span.exit, span.entry, side == 0u), 2u * rank + side, true, part, span, side == 1u);
             let within = hit.depth > frame.near && hit.depth < frame.far;
@@ -72,7 +73,7 @@ fn next_compound_glass(tile: TileRecord, pixel: vec2u, after: GlassHit, best: Gl
                 let rank = 32u * w + bit;
                 let key = 2u * rank + 1u - ((behind.words[w] >> bit) & 1u);
                 let is_next = is_glass_before(after, no_glass(depth, key)) && is_glass_before(no_glass(depth, key), best);
-                if (lenses[rank].flags & LENS_GLASS) == 0u || lenses[rank].token_count == 0u || !is_next {
+                if (lenses[rank].flags & LENS_GLASS) == 0u || !is_compound(rank) || !is_next {
                     continue;
                 }
                 let hit = compound_glass(rank, key, lens_ray(sample_point(pixel)), depth);
@@ -98,7 +99,7 @@ fn span_around(part: u32, ray: LensRay, depth: f32) -> Span {
     if parts[part].form == FORM_MESH {
         return mesh_span(part, ray, depth);
     }
-    return part_span(part, ray);
+    return part_span(with_all_faces(part), ray);
 }
 
 // The surface of a lens where it begins or ends at `depth`: of the first part whose crossing there makes a difference.

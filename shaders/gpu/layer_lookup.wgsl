@@ -29,6 +29,9 @@ fn is_begun(at: u32, layer: u32, depth: f32) -> bool {
 
 // The lenses around a depth: `entry <= depth < exit`.
 fn set_at(tile: TileRecord, pixel: vec2u, depth: f32) -> Set {
+    if !LAYERS {
+        return asked_at(tile, pixel, depth);
+    }
     if tile.part_count == 0u {
         return Set();
     }

@@ -53,9 +53,9 @@ fn flip(around: ptr<function, Set>, rank: u32) {
 }
 
 // The boundaries of a lens that is one convex part.
-fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, part: u32, ray: LensRay) {
-    let rank = parts[part].lens;
-    let span = part_span(part, ray);
+fn put_simple(g: ptr<function, Gathering>, around: ptr<function, Set>, asked: AskedPart, ray: LensRay) {
+    let rank = parts[asked.part].lens;
+    let span = part_span(asked, ray);
     let entry = max(span.entry, frame.near);
     let exit = min(span.exit, frame.far);
     if !span.hit || entry >= exit {
@@ -80,9 +80,10 @@ fn put_crossing(g: ptr<function, Gathering>, number: u32, depth: f32) {
     }
 }
 
-fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, ray: LensRay) {
+fn put_part(g: ptr<function, Gathering>, asked: AskedPart, number: u32, ray: LensRay) {
+    let part = asked.part;
     if parts[part].form != FORM_MESH {
-        let span = part_span(part, ray);
+        let span = part_span(asked, ray);
         if span.hit {
             put_crossing(g, number, span.entry);
             put_crossing(g, number, span.exit);
@@ -93,7 +94,7 @@ fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, ray: LensRay) {
     var crossing = before_mesh();
     var count = 0u;
     loop {
-        crossing = next_in_mesh(part, line, crossing);
+        crossing = next_in_mesh(asked, line, crossing);
         if !crossing.found {
             break;
         }
@@ -110,18 +111,25 @@ fn put_part(g: ptr<function, Gathering>, part: u32, number: u32, ray: LensRay) {
 
 // The boundaries of a lens of several parts or a mesh, whose parts on the tile are those from `entry` on; returns how
 // many those are. Only where the lens as a whole begins or ends is its boundary.
-fn put_compound(g: ptr<function, Gathering>, around: ptr<function, Set>, tile: TileRecord, entry: u32, ray: LensRay) -> u32 {
-    let rank = parts[tiles[tile.first_part + entry]].lens;
+fn put_compound(
+    g: ptr<function, Gathering>,
+    around: ptr<function, Set>,
+    tile: TileRecord,
+    entry: u32,
+    pixel: vec2u,
+    ray: LensRay,
+) -> u32 {
+    let rank = parts[part_of_tile(tile, entry)].lens;
     inside_parts = array<u32, PART_WORDS>();
     // Crossings of parts stand behind the boundaries gathered so far.
     var own = Gathering((*g).at, (*g).first + (*g).count, 0u);
     var end = entry;
     while end < tile.part_count {
-        let part = tiles[tile.first_part + end];
-        if parts[part].lens != rank {
+        let asked = part_at(tile, end, pixel);
+        if parts[asked.part].lens != rank {
             break;
         }
-        put_part(&own, part, part - lenses[rank].first_part, ray);
+        put_part(&own, asked, asked.part - lenses[rank].first_part, ray);
         end += 1u;
     }
     var held = program_holds(rank);
@@ -163,12 +171,12 @@ fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id
     var found = Gathering(layers_at(tile, pixel), 0u, 0u);
     var entry = 0u;
     while entry < tile.part_count {
-        let part = tiles[tile.first_part + entry];
-        if !COMPOUNDS || lenses[parts[part].lens].token_count == 0u {
-            put_simple(&found, &around, part, ray);
+        let asked = part_at(tile, entry, pixel);
+        if !is_compound(parts[asked.part].lens) {
+            put_simple(&found, &around, asked, ray);
             entry += 1u;
         } else {
-            entry += put_compound(&found, &around, tile, entry, ray);
+            entry += put_compound(&found, &around, tile, entry, pixel, ray);
         }
     }
     layers[found.at] = put_layers(found, &around);

@@ -11,6 +11,8 @@ const BOX_PADDING: f32 = 4e-6;
 
 // A ray in the mesh's own space.
 struct MeshLine {
+    // The point of the picture.
+    at: vec2f,
     // The point nearest to the mesh's middle, and its parameter.
     origin: vec3f,
     shift: f32,
@@ -29,15 +31,15 @@ struct MeshCrossing {
 }
 
 fn mesh_line(part: u32, lens_ray: LensRay) -> MeshLine {
-    return line_along(local_ray(part, lens_ray));
+    return line_along(local_ray(part, lens_ray), lens_ray.at);
 }
 
-fn line_along(ray: LocalRay) -> MeshLine {
+fn line_along(ray: LocalRay, at: vec2f) -> MeshLine {
     let start = anchored(ray, vec3f(0.0));
     let d = abs(ray.direction);
     let least = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), d.y <= d.z), vec3f(1.0, 0.0, 0.0), d.x <= min(d.y, d.z));
     let u = normalize(cross(ray.direction, least));
-    return MeshLine(start.origin, start.shift, ray.direction, u, normalize(cross(ray.direction, u)));
+    return MeshLine(at, start.origin, start.shift, ray.direction, u, normalize(cross(ray.direction, u)));
 }
 
 fn lens_vector(at: u32) -> vec3f {
@@ -49,10 +51,23 @@ fn before_mesh() -> MeshCrossing {
     return MeshCrossing(-FAR_AWAY, NONE, 0u, true);
 }
 
-// The crossing after another in the order of the triangles. One walk over the nodes in their order, children after their
-// parents, visits all boxes that the ray meets; it goes on anywhere.
-fn next_in_mesh(part: u32, line: MeshLine, last: MeshCrossing) -> MeshCrossing {
+// The crossing after another in the order of the triangles: of those listed, or else of all. One walk over the nodes in
+// their order, children after their parents, then visits all boxes that the ray meets; it goes on anywhere.
+fn next_in_mesh(asked: AskedPart, line: MeshLine, last: MeshCrossing) -> MeshCrossing {
+    let part = asked.part;
     var node = last.node;
+    if asked.first != NONE {
+        // Places in the list stand for nodes.
+        while asked.first + node < asked.end {
+            let triangle = tiles[asked.first + node];
+            let crossing = projected_crossing(part, line.at, triangle);
+            node += 1u;
+            if crossing.found {
+                return MeshCrossing(crossing.t, triangle, node, true);
+            }
+        }
+        return MeshCrossing(0.0, 0u, node, false);
+    }
     while node < parts[part].node_count {
         let at = parts[part].first_node + node * NODE_WORDS;
         let first = lens_words[at + 3u];
@@ -112,6 +127,32 @@ fn triangle_crossing(part: u32, line: MeshLine, triangle: u32) -> TriangleCrossi
     return TriangleCrossing(line.shift + along / dot(line.direction, line.direction), true);
 }
 
+// The same for a triangle in front of the eye, as the picture shows it.
+fn projected_crossing(part: u32, at: vec2f, triangle: u32) -> TriangleCrossing {
+    let first = parts[part].first_projected + 4u * triangle;
+    let p = at - parts[part].origin;
+    let a = lens_data[first];
+    let b = lens_data[first + 1u];
+    let c = lens_data[first + 2u];
+    let left = vec3<bool>(is_left_of(a, p), is_left_of(b, p), is_left_of(c, p));
+    if any(left) && !all(left) {
+        return TriangleCrossing(0.0, false);
+    }
+    let slope = lens_data[first + 3u];
+    let counted = slope.x * (p.x - a.w) + slope.y * (p.y - b.w) + slope.z;
+    let t = select(counted, 1.0 / max(counted, 1e-30), frame.perspective != 0u);
+    return TriangleCrossing(clamp(t, c.w, slope.w), true);
+}
+
+// Whether a point has a side of a projected triangle on its left. On the side it counts as moved, as in `is_left`.
+fn is_left_of(side: vec4f, p: vec2f) -> bool {
+    let area = side.x * p.x + side.y * p.y + side.z;
+    if area != 0.0 {
+        return area > 0.0;
+    }
+    return side.x > 0.0 || (side.x == 0.0 && side.y > 0.0);
+}
+
 // Twice the area between the ray and an edge; from the other end it is the same number with the other sign.
 fn edge_area(tail: SeenCorner, head: SeenCorner) -> f32 {
     let turned = tail.index > head.index;
@@ -139,11 +180,11 @@ const ANYWHERE: vec3f = vec3f(0.527348, 0.331907, 0.782154);
 
 // Whether a point of the mesh's own space is inside: a line from it crosses the surface an odd number of times.
 fn is_in_mesh(part: u32, p: vec3f) -> bool {
-    let line = line_along(LocalRay(p, ANYWHERE));
+    let line = line_along(LocalRay(p, ANYWHERE), vec2f(0.0));
     var crossing = before_mesh();
     var inside = false;
     loop {
-        crossing = next_in_mesh(part, line, crossing);
+        crossing = next_in_mesh(with_all_faces(part), line, crossing);
         if !crossing.found {
             break;
         }
@@ -242,7 +283,7 @@ fn crossing_behind(part: u32, line: MeshLine, after: MeshCrossing) -> MeshCrossi
     var best = MeshCrossing(FAR_AWAY, NONE, 0u, false);
     var crossing = before_mesh();
     loop {
-        crossing = next_in_mesh(part, line, crossing);
+        crossing = next_in_mesh(with_all_faces(part), line, crossing);
         if !crossing.found {
             break;
         }

@@ -1,4 +1,4 @@
-// The lower lenses as a ray meets them behind a lens that moves content: they are asked directly, part by part.
+// The lower lenses as a ray meets them behind a lens that moves content.
 
 fn step_point(step: u32, p: vec3f) -> vec3f {
     let q = vec4f(p, 1.0);
@@ -29,37 +29,6 @@ fn set_below(item: u32, step: u32, ray: PixelRay, depth: f32) -> Set {
         }
     }
     return around;
-}
-
-// Whether a lens holds a ray at a depth: `entry <= depth < exit`, where a boundary as close as two that merge is reached.
-fn holds_depth(rank: u32, ray: LensRay, depth: f32) -> bool {
-    inside_parts = array<u32, PART_WORDS>();
-    for (var i = 0u; i < lenses[rank].part_count; i += 1u) {
-        let part = lenses[rank].first_part + i;
-        if COMPOUNDS && parts[part].form == FORM_MESH {
-            cross_mesh(part, i, ray, depth);
-            continue;
-        }
-        let span = part_span(part, ray);
-        if span.hit && !starts_boundary(depth, span.entry) && starts_boundary(depth, span.exit) {
-            cross_part(i);
-        }
-    }
-    return program_holds(rank);
-}
-
-fn cross_mesh(part: u32, number: u32, ray: LensRay, depth: f32) {
-    let line = mesh_line(part, ray);
-    var crossing = before_mesh();
-    loop {
-        crossing = next_in_mesh(part, line, crossing);
-        if !crossing.found {
-            break;
-        }
-        if !starts_boundary(depth, crossing.t) {
-            cross_part(number);
-        }
-    }
 }
 
 // How an item's ray is moved before the lens of a rank is asked: the number of the step plus one, or 0. `inner`: for a

@@ -57,7 +57,8 @@ fn anchored(ray: LocalRay, center: vec3f) -> Anchored {
     return Anchored(ray.origin + ray.direction * shift, shift);
 }
 
-fn part_span(part: u32, lens_ray: LensRay) -> Span {
+fn part_span(asked: AskedPart, lens_ray: LensRay) -> Span {
+    let part = asked.part;
     let ray = local_ray(part, lens_ray);
     var span = no_span();
     let form = parts[part].form;
@@ -68,7 +69,7 @@ fn part_span(part: u32, lens_ray: LensRay) -> Span {
     } else if CAPSULES && form == FORM_CAPSULE {
         span = capsule_span(ray, parts[part].length);
     } else if HALF_SPACES && form == FORM_HALF_SPACES {
-        span = half_space_span(part, lens_ray);
+        span = half_space_span(asked, lens_ray);
     }
     span.hit = span.hit && span.exit > span.entry;
     return span;
@@ -178,28 +179,16 @@ fn united(a: Span, b: Span) -> Span {
     return Span(min(a.entry, b.entry), max(a.exit, b.exit), 0u, 0u, true);
 }
 
-fn half_space_span(part: u32, ray: LensRay) -> Span {
-    var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, true);
-    if (parts[part].flags & PART_DEPTH_MAP) != 0u && !ray.is_moved {
-        let cell = map_cell(part, ray.at);
-        let entry = layers[cell];
-        let exit = layers[cell + 1u];
-        let around_eye = (parts[part].flags & PART_HOLDS_EYE) != 0u;
-        if exit != 0u && (entry != 0u || around_eye) {
-            span.exit = plane_crossing(part, exit - 1u, ray).t;
-            span.exit_face = exit - 1u;
-            if entry != 0u {
-                span.entry = plane_crossing(part, entry - 1u, ray).t;
-                span.entry_face = entry - 1u;
-            }
-            return span;
+fn half_space_span(asked: AskedPart, ray: LensRay) -> Span {
+    let part = asked.part;
+    let is_listed = asked.first != NONE;
+    let count = select(parts[part].plane_count, asked.end - asked.first, is_listed);
+    var span = Span(-FAR_AWAY, FAR_AWAY, 0u, 0u, count != 0u);
+    for (var i = 0u; i < count; i += 1u) {
+        var face = i;
+        if is_listed {
+            face = tiles[asked.first + i];
         }
-        if exit == 0u && entry == 0u {
-            return no_span();
-        }
-        // A pixel between faces that rounding has torn apart: all planes are asked.
-    }
-    for (var face = 0u; face < parts[part].plane_count; face += 1u) {
         let crossing = plane_crossing(part, face, ray);
         if crossing.rate == 0.0 {
             if crossing.distance > 0.0 {
@@ -216,11 +205,4 @@ fn half_space_span(part: u32, ray: LensRay) -> Span {
         }
     }
     return span;
-}
-
-// The cell of a pixel in a part's depth map: the entry face plus one, then the exit face plus one.
-fn map_cell(part: u32, at: vec2f) -> u32 {
-    let low = parts[part].map_min;
-    let within = clamp(vec2u(at) - frame.window_min, low, low + parts[part].map_size - 1u) - low;
-    return parts[part].map_first + 2u * (within.y * parts[part].map_size.x + within.x);
 }

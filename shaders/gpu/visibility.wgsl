@@ -11,8 +11,9 @@
 struct Varying {
     @invariant @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) item: u32,
-    // Within the item's.
+    // In the order in which the item's are drawn.
     @location(1) @interpolate(flat) triangle: u32,
+    @location(2) depth: f32,
 }
 
 // Some fields of the record of an `Item`.
@@ -20,7 +21,7 @@ struct Shown {
     @location(1) row_x: vec4f,
     @location(2) row_y: vec4f,
     @location(3) row_z: vec4f,
-    @location(4) first_vertex: u32,
+    @location(4) base_vertex: u32,
 }
 
 @vertex
@@ -41,7 +42,7 @@ fn vertex(
     }
     let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
-    return Varying(vec4f(moved, clip.zw), item, vertex - shown.first_vertex);
+    return Varying(vec4f(moved, clip.zw), item, vertex - shown.base_vertex, depth);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.
@@ -50,17 +51,18 @@ fn plain(in: Varying) -> @location(0) vec2u {
     return vec2u(in.item + 1u, in.triangle);
 }
 
-// `fused`: the fragment finds its layer, its region and its stack itself.
+// `fused`: the fragment finds its region and its stack itself. Small triangles are many: it reads none of their corners.
 @fragment
 fn fused(in: Varying) -> @location(0) vec2u {
     let pixel = vec2u(in.position.xy);
-    let tile = tile_at(pixel);
-    let ray = pixel_ray(pixel);
-    let hit = surface_hit(ray, fetch_triangle(in.item, in.triangle));
-    if hit.depth < frame.near || hit.depth > frame.far {
+    if in.depth < frame.near || in.depth > frame.far {
         discard;
     }
-    return keep(in.item, in.triangle, pixel, ray, hit.depth, set_at(tile, pixel, hit.depth));
+    if !TAKEN_AWAY && !TRANSLUCENT {
+        return vec2u(in.item + 1u, in.triangle);
+    }
+    let around = set_at(tile_at(pixel), pixel, in.depth);
+    return keep(in.item, in.triangle, pixel, pixel_ray(pixel), in.depth, around);
 }
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
@@ -95,7 +97,7 @@ fn next_behind(in: Varying) -> @location(0) vec2u {
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
-    let key = items[in.item].first_triangle + in.triangle;
+    let key = triangle_number(in.item, in.triangle);
     let is_later = key > frame.after_key || (key == frame.after_key && in.item > frame.after_item);
     if hit.depth < frame.after_depth || (hit.depth == frame.after_depth && !is_later) {
         discard;
@@ -110,7 +112,7 @@ fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, insid
         discard;
     }
     if TRANSLUCENT && may_be_translucent(item, verdict.stack) {
-        append(pixel, depth, item, triangle);
+        append(pixel, meeting(item, triangle, ray).hit.depth, item, triangle);
         discard;
     }
     return vec2u(item + 1u, triangle);

@@ -95,8 +95,8 @@ pub struct ViewArgs {
     /// Width and height in pixels, as in 1920x1080; left out: the spec's
     #[arg(long, value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Who finds what is seen: the GPU, the CPU, or the GPU where there is a real one
-    #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
+    /// Who finds what is seen: the CPU, which need not be started, the GPU, or the GPU where there is a real one
+    #[arg(long, value_enum, default_value_t = BackendChoice::Cpu)]
     pub backend: BackendChoice,
 }
 

@@ -20,12 +20,16 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     check_row(args, &spec)?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
     spec.image.samples = args.samples.unwrap_or(spec.image.samples);
-    let scene = stages.time("scene", || Scene::open(&spec))?;
-    let plan = stages.time("plan", || Plan::new(&spec, &scene))?;
+    // A device takes as long to open as many a scene.
+    let (opened, device) = std::thread::scope(|scope| {
+        let device = scope.spawn(|| backend::choose(args.backend));
+        (open(&spec, &mut stages), stages.time("device", || device.join()))
+    });
+    let (scene, plan) = opened?;
     for warning in &plan.warnings {
         eprintln!("warning: {warning}");
     }
-    let (backend, choice) = stages.time("device", || backend::choose(args.backend))?;
+    let (backend, choice) = device.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
     eprintln!("{choice}");
     let aovs = !args.aov.is_empty() || args.view.is_some();
     let mut frame = backend.render(&scene, &plan, args.engine, aovs, &mut stages)?;
@@ -41,6 +45,12 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
         Some(path) => write_whole(path, stats(args, &plan, &choice, &stages).as_bytes()),
         None => Ok(()),
     }
+}
+
+fn open(spec: &Spec, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
+    let scene = stages.time("scene", || Scene::open(spec))?;
+    let plan = stages.time("plan", || Plan::new(spec, &scene))?;
+    Ok((scene, plan))
 }
 
 /// The debug view of a picture.

@@ -1,9 +1,9 @@
-//! Triangles around the eye, in wide BVHs: one for each content in place, and one for all that lenses move.
+//! Triangles around the eye, in BVHs: one for each content in place, and one for all that lenses move.
 
 use std::time::Duration;
 
 use glam::{DVec3, Vec3, Vec3A};
-use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
+use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::{BvhBuildParams, aabb::Aabb};
 use rayon::prelude::*;
 
@@ -13,7 +13,7 @@ use crate::view::View;
 
 /// Triangles in the order of the BVH's leaves.
 pub struct Geometry {
-    pub bvh: CwBvh,
+    pub bvh: Bvh2,
     pub triangles: Vec<Triangle>,
 }
 
@@ -30,6 +30,9 @@ pub struct Triangle {
 
 /// Boxes are padded by this share of the largest coordinate, so that rounding in the box test loses no flat triangle.
 const PADDING: f32 = 1e-6;
+
+/// Whole blocks of rays go down the BVH together, so that it costs more to make it better than that saves.
+const QUICK: BvhBuildParams = BvhBuildParams { reinsertion_batch_ratio: 0.0, ..BvhBuildParams::very_fast_build() };
 
 impl obvhs::Boundable for Triangle {
     fn aabb(&self) -> Aabb {
@@ -77,35 +80,37 @@ impl Geometry {
     fn build(scene: &Scene, plan: &Plan, wanted: impl Fn(&Instance) -> bool + Sync) -> Self {
         let instances = plan.instances.par_iter().enumerate().filter(|(_, instance)| wanted(instance));
         let triangles: Vec<Triangle> =
-            instances.flat_map_iter(|(index, instance)| triangles(scene, plan, index, instance)).collect();
+            instances.flat_map(|(index, instance)| triangles(scene, plan, index, instance)).collect();
         if triangles.is_empty() {
-            return Self { bvh: CwBvh::default(), triangles };
+            return Self { bvh: Bvh2::default(), triangles };
         }
-        let bvh = build_cwbvh(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+        let bvh = build_bvh2(&triangles, QUICK, &mut Duration::default());
         let ordered = bvh.primitive_indices.par_iter().map(|i| triangles[*i as usize]).collect();
         Self { bvh, triangles: ordered }
     }
 }
 
 /// The triangles of an instance; of a moved one only those that reach into the lenses that move it there.
-fn triangles(scene: &Scene, plan: &Plan, index: usize, instance: &Instance) -> Vec<Triangle> {
+fn triangles<'a>(
+    scene: &'a Scene,
+    plan: &'a Plan,
+    index: usize,
+    instance: &'a Instance,
+) -> impl ParallelIterator<Item = Triangle> + 'a {
     let item = &plan.items[instance.item];
     let model = &scene.models[item.model];
     let primitive = &model.meshes[item.mesh].primitives[item.primitive];
     let world = instance.shown_from_world * model.nodes[item.node].world_from_local;
     let scale = Reach::new(&plan.view).scale;
-    let shown: Vec<DVec3> = primitive.positions.iter().map(|p| world.transform_point3(p.as_dvec3())).collect();
-    let around = |i: u32| ((shown[i as usize] - plan.view.eye) * scale).as_vec3();
-    let is_near = |corners: &[u32; 3]| {
-        let bounds = scene::Aabb::from_points(corners.iter().map(|i| shown[*i as usize]));
-        !instance.is_moved() || bounds.overlaps(&instance.bounds)
-    };
-    let numbered = primitive.triangles.iter().enumerate().filter(|(_, corners)| is_near(corners));
-    numbered
-        .map(|(number, corners)| Triangle {
-            corners: corners.map(around),
+    let shown: Vec<DVec3> = primitive.positions.par_iter().map(|p| world.transform_point3(p.as_dvec3())).collect();
+    let numbered = primitive.triangles.par_iter().enumerate();
+    numbered.filter_map(move |(number, corners)| {
+        let shown = corners.map(|i| shown[i as usize]);
+        let is_near = !instance.is_moved() || scene::Aabb::from_points(shown).overlaps(&instance.bounds);
+        is_near.then(|| Triangle {
+            corners: shown.map(|p| ((p - plan.view.eye) * scale).as_vec3()),
             instance: index as u32,
             index: number as u32,
         })
-        .collect()
+    })
 }

@@ -14,15 +14,38 @@ pub struct GlassHit {
     pub color: glam::Vec4,
 }
 
-/// Appends the lens surfaces that a ray meets between near and far.
-pub fn find(plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay, hits: &mut Vec<GlassHit>) {
-    let mut boundaries: Vec<Boundary> = Vec::new();
+/// The lens surfaces that a ray meets; keeps its allocations from ray to ray.
+#[derive(Debug, Default)]
+pub struct GlassHits {
+    /// Nearest first.
+    pub hits: Vec<GlassHit>,
+    boundaries: Vec<Boundary>,
+}
+
+impl GlassHits {
+    /// Finds the lens surfaces that a ray meets between near and far.
+    pub fn find(&mut self, plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay) {
+        let Self { hits, boundaries } = self;
+        hits.clear();
+        find(plan, ranks, ray, pixel, boundaries, hits);
+        hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.rank.cmp(&b.rank)));
+    }
+}
+
+fn find(
+    plan: &Plan,
+    ranks: &[usize],
+    ray: &Ray,
+    pixel: &wgsl::PixelRay,
+    boundaries: &mut Vec<Boundary>,
+    hits: &mut Vec<GlassHit>,
+) {
     for &rank in ranks {
         let lens = &plan.lenses[rank];
         let Some(glass) = &lens.glass else { continue };
         boundaries.clear();
-        lens.volume.boundaries(ray, plan.view.near, plan.view.far, &mut boundaries);
-        for boundary in &boundaries {
+        lens.volume.boundaries(ray, plan.view.near, plan.view.far, boundaries);
+        for boundary in boundaries.iter() {
             let part = &lens.volume.parts[boundary.part];
             let crossing = boundary.crossing();
             if !part.form.is_seen(crossing.face) {

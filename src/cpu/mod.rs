@@ -1,5 +1,6 @@
 //! The reference backend: a ray a sample, all hits along it in order, closed-form lens intervals.
 
+mod block;
 mod convert;
 mod geometry;
 mod glass;

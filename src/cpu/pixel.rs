@@ -1,18 +1,18 @@
-//! Everything on one view ray: layers, hits in order, the visible fragment, the colour.
+//! Everything on the view rays of a block: layers, hits in order, the visible fragment, the colour.
 
 mod moved;
 mod removed;
 
 use glam::{Vec3, Vec4};
-use obvhs::ray::Ray as BvhRay;
 
+use super::block::{Block, BlockRays, Camera};
 use super::convert::d3;
 use super::geometry::{Geometry, Reach, Triangle};
-use super::glass::{self, GlassHit};
+use super::glass::{GlassHit, GlassHits};
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
-use crate::lens::RayLayers;
+use crate::lens::{PixelRect, RayLayers};
 use crate::pixel::{Fragment, PixelReport, Survivor};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
@@ -26,24 +26,46 @@ pub struct Tracer<'a> {
     plan: &'a Plan,
     geometry: Vec<Geometry>,
     shader: Shader<'a>,
+    camera: Camera,
     reach: Reach,
     /// Lenses whose filters may make a fragment translucent.
     translucent: LensSet,
+    /// For each instance: the lenses and rules without which all of it is there and opaque; `None` where it may be
+    /// neither, anyway.
+    altered_by: Vec<Option<LensSet>>,
+    /// Rules, and lenses that take whole objects: they may act anywhere.
+    anywhere: LensSet,
     /// For each geometry: the lenses without which nothing of it is seen, or `None` where some of it may be seen anyway.
     seen_by: Vec<Option<LensSet>>,
 }
 
-/// Buffers that live from ray to ray.
+/// A block of rays with what they met, and buffers that live from block to block.
 #[derive(Default)]
 pub struct Scratch {
-    layers: RayLayers,
-    moved: MovedLayers,
-    fragments: Vec<Fragment>,
-    glass: Vec<GlassHit>,
+    bundle: BlockRays,
+    rays: Vec<OneRay>,
+    /// Fragments that may be translucent, in front of the opaque one of their ray, and the rays' numbers: by ray, nearest
+    /// first.
+    listed: Vec<(u32, Fragment)>,
+    glass: GlassHits,
 }
 
-/// The nearest fragment that surely ends the ray.
-type Opaque = Option<Fragment>;
+/// One ray of a block.
+#[derive(Default)]
+struct OneRay {
+    ray: Ray,
+    layers: RayLayers,
+    moved: MovedLayers,
+    /// The nearest fragment that surely ends the ray.
+    opaque: Option<Fragment>,
+}
+
+impl Scratch {
+    /// Where a ray of the block traced last surely ends.
+    pub fn depth(&self, sample: usize) -> f32 {
+        self.rays[sample].opaque.map_or(f32::INFINITY, |fragment| fragment.depth)
+    }
+}
 
 impl<'a> Tracer<'a> {
     pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
@@ -54,38 +76,124 @@ impl<'a> Tracer<'a> {
         };
         let moving = plan.instances.iter().filter_map(|instance| instance.steps.first());
         let moving = moving.fold(LensSet::EMPTY, |all, step| all | LensSet::only(step.rank));
-        // A rule, or a lens that takes whole objects, may show something anywhere.
-        let needed =
-            |lenses_needed: LensSet| lenses_needed.minus(plan.by_pixel & lenses).is_empty().then_some(lenses_needed);
+        let anywhere = (lenses | plan.rule_ranks()).minus(plan.by_pixel);
+        let needed = |lenses: LensSet| (lenses & anywhere).is_empty().then_some(lenses);
         let alternates = (1..plan.contents.len()).map(|content| needed(shown(content)));
+        let altered_by = |instance: &Instance| {
+            let item = &plan.items[instance.item];
+            let always = item.is_alternate() || item.translucent || instance.is_moved();
+            (!always).then(|| plan.altering(item))
+        };
         Self {
             scene,
             plan,
             geometry: Geometry::build_all(scene, plan),
             shader: Shader::new(scene, plan),
+            camera: Camera::new(&plan.view),
             reach: Reach::new(&plan.view),
             translucent: plan.translucent(),
+            altered_by: plan.instances.iter().map(altered_by).collect(),
+            anywhere,
             seen_by: std::iter::once(None).chain(alternates).chain([needed(moving)]).collect(),
         }
     }
 
-    /// The premultiplied linear colour of a point of the picture (pixels from the top left), without background.
-    pub fn color(&self, x: f64, y: f64, ranks: &[usize], scratch: &mut Scratch) -> Vec4 {
-        let (ray, pixel) = self.rays(x, y);
-        let opaque = self.trace(&ray, ranks, scratch);
-        glass::find(self.plan, ranks, &ray, &pixel, &mut scratch.glass);
-        scratch.fragments.extend(opaque);
-        scratch
-            .fragments
-            .sort_unstable_by(|a, b| self.key(a).partial_cmp(&self.key(b)).unwrap_or(std::cmp::Ordering::Equal));
-        scratch.glass.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.rank.cmp(&b.rank)));
-        self.composite(scratch, &pixel)
+    /// Meets the rays of a block with everything. `ranks`: the lenses that may touch it.
+    pub fn trace(&self, block: &Block, ranks: &[usize], scratch: &mut Scratch) {
+        let Scratch { bundle, rays, listed, .. } = scratch;
+        listed.clear();
+        rays.resize_with(rays.len().max(block.len()), OneRay::default);
+        for (number, one) in rays[..block.len()].iter_mut().enumerate() {
+            self.start(block, number, ranks, one);
+        }
+        let traced = |one: &OneRay| {
+            let (origin, direction) = self.traced(&one.ray);
+            ShearedRay::new(origin, direction)
+        };
+        bundle.start(rays[..block.len()].iter().map(traced), self.parameter(self.plan.view.far));
+        let lenses = self.anywhere | ranks.iter().copied().collect();
+        for (geometry, seen_by) in self.geometry.iter().zip(&self.seen_by) {
+            let Some(range) = seen_range(block, seen_by, rays).filter(|_| !geometry.triangles.is_empty()) else {
+                continue;
+            };
+            bundle.trace(geometry, &self.camera, block, &range, |number, triangle, hit| {
+                let one = &mut rays[number];
+                let depth = self.depth(hit.t);
+                let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
+                if depth < near || depth > far || self.is_culled(triangle, &one.ray) {
+                    return None;
+                }
+                let altered_by = &self.altered_by[triangle.instance as usize];
+                let is_plain = altered_by.is_some_and(|altering| (altering & lenses).is_empty());
+                let Triangle { instance, index, .. } = *triangle;
+                let mut fragment =
+                    Fragment { instance, triangle: index, depth, weights: hit.weights, region: Region::PLAIN };
+                if !is_plain {
+                    let verdict = self.verdict(&one.ray, instance, depth, &one.layers, &mut one.moved);
+                    if !verdict.displayed {
+                        return None;
+                    }
+                    fragment.region = Region { set: verdict.set, stack: verdict.stack };
+                    if self.item(instance).translucent || !(verdict.stack & self.translucent).is_empty() {
+                        listed.push((number as u32, fragment));
+                        return None;
+                    }
+                }
+                let is_nearer = one.opaque.is_none_or(|known| self.key(&fragment) < self.key(&known));
+                is_nearer.then(|| {
+                    one.opaque = Some(fragment);
+                    hit.t
+                })
+            });
+        }
+        self.finish(block, rays, listed);
     }
 
-    fn composite(&self, scratch: &Scratch, pixel: &wgsl::PixelRay) -> Vec4 {
+    /// Cuts a ray into layers.
+    fn start(&self, block: &Block, number: usize, ranks: &[usize], one: &mut OneRay) {
+        let (x, y) = block.point(number);
+        let view = &self.plan.view;
+        one.ray = view.ray(x, y);
+        one.moved.clear();
+        one.opaque = None;
+        let volumes = ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume));
+        one.layers.find(volumes, &one.ray, view.near, view.far);
+    }
+
+    /// Says who acts on opaque fragments, and leaves of the others those that can be seen, in order.
+    fn finish(&self, block: &Block, rays: &mut [OneRay], listed: &mut Vec<(u32, Fragment)>) {
+        for one in &mut rays[..block.len()] {
+            if let Some(fragment) = &mut one.opaque {
+                let verdict = self.verdict(&one.ray, fragment.instance, fragment.depth, &one.layers, &mut one.moved);
+                fragment.region = Region { set: verdict.set, stack: verdict.stack };
+            }
+        }
+        listed.retain(|(ray, fragment)| {
+            rays[*ray as usize].opaque.is_none_or(|opaque| self.key(fragment) < self.key(&opaque))
+        });
+        listed.sort_unstable_by(|(a, f), (b, g)| {
+            a.cmp(b).then(self.key(f).partial_cmp(&self.key(g)).unwrap_or(std::cmp::Ordering::Equal))
+        });
+    }
+
+    /// The premultiplied linear colour of a sample of the block traced last, without background. `ranks` as there.
+    pub fn color(&self, sample: usize, ranks: &[usize], scratch: &mut Scratch) -> Vec4 {
+        let Scratch { rays, listed, glass, .. } = scratch;
+        let one = &rays[sample];
+        let pixel = self.pixel_ray(&one.ray);
+        glass.find(self.plan, ranks, &one.ray, &pixel);
+        self.composite(fragments(sample, one, listed), &glass.hits, &pixel)
+    }
+
+    fn composite<'f>(
+        &self,
+        fragments: impl Iterator<Item = &'f Fragment>,
+        glass: &[GlassHit],
+        pixel: &wgsl::PixelRay,
+    ) -> Vec4 {
         let mut front = Vec4::ZERO;
-        let mut glass = scratch.glass.iter().peekable();
-        for fragment in &scratch.fragments {
+        let mut glass = glass.iter().peekable();
+        for fragment in fragments {
             while let Some(hit) = glass.next_if(|hit| hit.depth < f64::from(fragment.depth)) {
                 front = over(front, hit.color.truncate(), hit.color.w);
             }
@@ -99,16 +207,12 @@ impl<'a> Tracer<'a> {
         glass.fold(front, |front, hit| over(front, hit.color.truncate(), hit.color.w))
     }
 
-    /// What is at a point of the picture, without what lenses take away.
-    pub fn report(&self, x: f64, y: f64, ranks: &[usize], scratch: &mut Scratch) -> PixelReport {
-        let (ray, pixel) = self.rays(x, y);
-        let opaque = self.trace(&ray, ranks, scratch);
-        scratch.fragments.extend(opaque);
-        scratch
-            .fragments
-            .sort_unstable_by(|a, b| self.key(a).partial_cmp(&self.key(b)).unwrap_or(std::cmp::Ordering::Equal));
-        let mut report = PixelReport { layers: scratch.layers.starts.clone(), ..PixelReport::default() };
-        for fragment in &scratch.fragments {
+    /// What is at a sample of the block traced last, without what lenses take away.
+    pub fn report(&self, sample: usize, scratch: &Scratch) -> PixelReport {
+        let one = &scratch.rays[sample];
+        let pixel = self.pixel_ray(&one.ray);
+        let mut report = PixelReport { layers: one.layers.starts.clone(), ..PixelReport::default() };
+        for fragment in fragments(sample, one, &scratch.listed) {
             let Shaded { opacity, coverage, normal, .. } = self.shader.shade(fragment, &pixel);
             if !report.push(Survivor { fragment: *fragment, opacity, coverage }, normal) {
                 break;
@@ -117,63 +221,13 @@ impl<'a> Tracer<'a> {
         report
     }
 
-    /// Collects the surviving fragments that may be translucent, in front of the nearest that surely is opaque.
-    fn trace(&self, ray: &Ray, ranks: &[usize], scratch: &mut Scratch) -> Opaque {
-        scratch.fragments.clear();
-        scratch.glass.clear();
-        scratch.moved.clear();
-        let volumes = ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume));
-        scratch.layers.find(volumes, ray, self.plan.view.near, self.plan.view.far);
-        let around = scratch.layers.starts.iter().fold(LensSet::EMPTY, |all, start| all | start.set);
-        let mut opaque: Opaque = None;
-        for (geometry, seen_by) in self.geometry.iter().zip(&self.seen_by) {
-            let seen = seen_by.is_none_or(|lenses| !(lenses & around).is_empty());
-            if seen && !geometry.triangles.is_empty() {
-                self.trace_content(geometry, ray, scratch, &mut opaque);
-            }
-        }
-        if let Some(opaque) = &opaque {
-            let end = self.key(opaque);
-            scratch.fragments.retain(|f| self.key(f) < end);
-        }
-        opaque
+    /// From a ray's parameter in the space of the geometry to a depth, and back.
+    fn depth(&self, parameter: f32) -> f32 {
+        (f64::from(parameter) / self.reach.scale + self.reach.start) as f32
     }
 
-    fn trace_content(&self, geometry: &Geometry, ray: &Ray, scratch: &mut Scratch, opaque: &mut Opaque) {
-        let Reach { start, scale } = self.reach;
-        let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
-        let traced = |depth: f64| ((depth - start) * scale) as f32;
-        let (origin, direction) = self.traced(ray);
-        let sheared = ShearedRay::new(origin, direction);
-        let mut walk_ray = BvhRay::new(origin.into(), direction.into(), 0.0, traced(self.plan.view.far));
-        if let Some(known) = &*opaque {
-            walk_ray.tmax = traced(f64::from(known.depth)).next_up();
-        }
-        let mut visit = |slot: u32, end: &mut f32| {
-            let triangle = &geometry.triangles[slot as usize];
-            let Some(hit) = sheared.hit(&triangle.corners) else { return };
-            let depth = (f64::from(hit.t) / scale + start) as f32;
-            if hit.t > *end || depth < near || depth > far || self.is_culled(triangle, direction) {
-                return;
-            }
-            let Some(fragment) = self.classify(ray, triangle, depth, hit.weights, &scratch.layers, &mut scratch.moved)
-            else {
-                return;
-            };
-            let translucent = self.item(fragment.instance).translucent;
-            if translucent || !(fragment.region.stack & self.translucent).is_empty() {
-                scratch.fragments.push(fragment);
-            } else if opaque.is_none_or(|known| self.key(&fragment) < self.key(&known)) {
-                *opaque = Some(fragment);
-                *end = hit.t;
-            }
-        };
-        let mut state = geometry.bvh.new_traversal(walk_ray.direction);
-        let mut node;
-        use glam::UVec2;
-        obvhs::traverse!(geometry.bvh, node, state, node.intersect_ray(&walk_ray, state.oct_inv4), {
-            visit(state.primitive_id, &mut walk_ray.tmax);
-        });
+    fn parameter(&self, depth: f64) -> f32 {
+        ((depth - self.reach.start) * self.reach.scale) as f32
     }
 
     /// Origin and direction of a ray in the space of the geometry.
@@ -182,22 +236,6 @@ impl<'a> Tracer<'a> {
         let origin = ((ray.at(start) - self.plan.view.eye) * scale).as_vec3();
         // The BVH takes -0 for a negative direction in one place and for a positive one in another: no -0 here.
         (origin, ray.direction.as_vec3() + Vec3::ZERO)
-    }
-
-    /// The fragment with its lenses, unless they take it away.
-    fn classify(
-        &self,
-        ray: &Ray,
-        triangle: &Triangle,
-        depth: f32,
-        weights: Vec3,
-        layers: &RayLayers,
-        moved: &mut MovedLayers,
-    ) -> Option<Fragment> {
-        let verdict = self.verdict(ray, triangle.instance, depth, layers, moved);
-        let region = Region { set: verdict.set, stack: verdict.stack };
-        let Triangle { instance, index, .. } = *triangle;
-        verdict.displayed.then_some(Fragment { instance, triangle: index, depth, weights, region })
     }
 
     fn verdict(&self, ray: &Ray, instance: u32, depth: f32, layers: &RayLayers, moved: &mut MovedLayers) -> Verdict {
@@ -217,7 +255,7 @@ impl<'a> Tracer<'a> {
         &self.plan.items[self.instance(instance).item]
     }
 
-    fn is_culled(&self, triangle: &Triangle, direction: Vec3) -> bool {
+    fn is_culled(&self, triangle: &Triangle, ray: &Ray) -> bool {
         if !self.plan.cull_backfaces {
             return false;
         }
@@ -227,7 +265,7 @@ impl<'a> Tracer<'a> {
         }
         let [a, b, c] = triangle.corners;
         let mirrored = self.scene.models[item.model].nodes[item.node].world_from_local.matrix3.determinant() < 0.0;
-        ((b - a).cross(c - a).dot(direction) > 0.0) != mirrored
+        ((b - a).cross(c - a).dot(self.traced(ray).1) > 0.0) != mirrored
     }
 
     /// Nearest first; at equal depths by content, node, primitive and triangle.
@@ -235,24 +273,37 @@ impl<'a> Tracer<'a> {
         (fragment.depth, self.item(fragment.instance).first_triangle + fragment.triangle)
     }
 
-    /// The ray of a point of the picture: in the world for intervals, around the eye for shading.
-    fn rays(&self, x: f64, y: f64) -> (Ray, wgsl::PixelRay) {
+    /// A ray around the eye, for shading.
+    fn pixel_ray(&self, ray: &Ray) -> wgsl::PixelRay {
         let view = &self.plan.view;
-        let ray = view.ray(x, y);
         let (right, down) = view.pixel_steps();
         let none = glam::DVec3::ZERO;
         let (origin_steps, direction_steps) =
             if view.is_perspective() { ((none, none), (right, down)) } else { ((right, down), (none, none)) };
-        let pixel = wgsl::PixelRay {
+        wgsl::PixelRay {
             origin: d3(ray.origin - view.eye),
             direction: d3(ray.direction),
             origin_dx: d3(origin_steps.0),
             origin_dy: d3(origin_steps.1),
             direction_dx: d3(direction_steps.0),
             direction_dy: d3(direction_steps.1),
-        };
-        (ray, pixel)
+        }
     }
+}
+
+/// The fragments of a ray that can be seen, nearest first.
+fn fragments<'f>(sample: usize, one: &'f OneRay, listed: &'f [(u32, Fragment)]) -> impl Iterator<Item = &'f Fragment> {
+    let first = listed.partition_point(|(ray, _)| (*ray as usize) < sample);
+    let own = listed[first..].iter().take_while(move |(ray, _)| *ray as usize == sample);
+    own.map(|(_, fragment)| fragment).chain(&one.opaque)
+}
+
+/// The samples of a block that may see a geometry; `None` where none does.
+fn seen_range(block: &Block, seen_by: &Option<LensSet>, rays: &[OneRay]) -> Option<PixelRect> {
+    let Some(lenses) = seen_by else { return Some(block.all()) };
+    let sees = |one: &OneRay| one.layers.starts.iter().any(|layer| !(layer.set & *lenses).is_empty());
+    let seeing = (0..block.len()).filter(|number| sees(&rays[*number])).map(|number| block.place(number));
+    seeing.map(|[x, y]| PixelRect { min: [x, y], max: [x + 1, y + 1] }).reduce(PixelRect::union)
 }
 
 fn over(front: Vec4, back: Vec3, alpha: f32) -> Vec4 {

@@ -3,6 +3,7 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
+use super::block::Block;
 use super::pixel::{Scratch, Tracer};
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, RegionTable};
@@ -12,8 +13,8 @@ use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// Side of a tile in pixels.
-const TILE: u32 = 16;
+/// Samples along each side of a block, about.
+const BLOCK: u32 = 16;
 
 /// Renders a plan over a scene. Holds the scene's acceleration structures.
 pub struct Renderer<'a> {
@@ -65,6 +66,27 @@ impl<'a> Renderer<'a> {
         self.collect(&self.tiles(Wanted { colors: false, maps: true }, done))
     }
 
+    /// The depth at which the ray of each pixel's centre surely ends, infinite where nothing opaque is: primary visibility
+    /// and nothing else.
+    pub fn depths(&self) -> Vec<f32> {
+        let [width, height] = self.plan.view.size;
+        let tiles: Vec<(PixelRect, Vec<f32>)> = tiles([width, height], BLOCK)
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, rect| {
+                let block = Block { rect, side: 1 };
+                self.tracer.trace(&block, &self.ranks(&rect), scratch);
+                (rect, (0..block.len()).map(|sample| scratch.depth(sample)).collect())
+            })
+            .collect();
+        let mut depths = vec![f32::INFINITY; width as usize * height as usize];
+        for (rect, own) in &tiles {
+            for ((x, y), depth) in pixels_of(rect).zip(own) {
+                depths[(y * width + x) as usize] = *depth;
+            }
+        }
+        depths
+    }
+
     fn collect(&self, tiles: &[TileResult]) -> Aovs {
         let size = self.plan.view.size;
         let (mut maps, mut table) = (Aovs::empty(size), RegionTable::default());
@@ -78,7 +100,8 @@ impl<'a> Renderer<'a> {
     }
 
     fn tiles(&self, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Vec<TileResult> {
-        tiles(self.plan.view.size)
+        let side = if wanted.colors { self.samples_along() } else { 1 };
+        tiles(self.plan.view.size, (BLOCK / side).max(1))
             .into_par_iter()
             .map_init(Scratch::default, |scratch, rect| {
                 let result = self.tile(rect, wanted, scratch);
@@ -99,8 +122,10 @@ impl<'a> Renderer<'a> {
 
     /// The same without what lenses take away, as fast as rendering the pixel.
     pub fn report(&self, x: u32, y: u32) -> PixelReport {
-        let (ranks, mut scratch) = (self.ranks_at(x, y), Scratch::default());
-        self.tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, &mut scratch)
+        let mut scratch = Scratch::default();
+        let block = Block { rect: pixel_rect(x, y), side: 1 };
+        self.tracer.trace(&block, &self.ranks(&block.rect), &mut scratch);
+        self.tracer.report(0, &scratch)
     }
 
     /// What is visible at a pixel; `None` where nothing is and outside the picture.
@@ -122,28 +147,38 @@ impl<'a> Renderer<'a> {
     }
 
     fn ranks_at(&self, x: u32, y: u32) -> Vec<usize> {
-        self.ranks(&PixelRect { min: [x, y], max: [x + 1, y + 1] })
+        self.ranks(&pixel_rect(x, y))
     }
 
     fn ranks(&self, rect: &PixelRect) -> Vec<usize> {
         (0..self.plan.lenses.len()).filter(|rank| self.plan.lenses[*rank].rect.overlaps(rect)).collect()
     }
 
+    /// Samples along each side of a pixel.
+    fn samples_along(&self) -> u32 {
+        f64::from(self.plan.samples).sqrt().round().max(1.0) as u32
+    }
+
     fn tile(&self, rect: PixelRect, wanted: Wanted, scratch: &mut Scratch) -> TileResult {
         let ranks = self.ranks(&rect);
-        let side = f64::from(self.plan.samples).sqrt().round().max(1.0) as u32;
-        let offset = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
         let mut result = TileResult { rect, pixels: Vec::new(), centers: Vec::new() };
-        for (x, y) in pixels_of(&rect) {
-            if wanted.colors {
-                let mut sum = Vec4::ZERO;
-                for (i, j) in (0..side).flat_map(|j| (0..side).map(move |i| (i, j))) {
-                    sum += self.tracer.color(f64::from(x) + offset(i), f64::from(y) + offset(j), &ranks, scratch);
-                }
-                result.pixels.push(self.finish(sum / (side * side) as f32));
+        let mut block = Block { rect, side: self.samples_along() };
+        if wanted.colors {
+            self.tracer.trace(&block, &ranks, scratch);
+            for (x, y) in pixels_of(&rect) {
+                let colors = block.samples_of([x, y]).map(|sample| self.tracer.color(sample, &ranks, scratch));
+                let sum = colors.fold(Vec4::ZERO, |sum, color| sum + color);
+                result.pixels.push(self.finish(sum / (block.side * block.side) as f32));
             }
-            if wanted.maps {
-                let report = self.tracer.report(f64::from(x) + 0.5, f64::from(y) + 0.5, &ranks, scratch);
+        }
+        if wanted.maps {
+            // The pixels' centres: traced already, if there is one sample a pixel.
+            if !wanted.colors || block.side != 1 {
+                block.side = 1;
+                self.tracer.trace(&block, &ranks, scratch);
+            }
+            for sample in 0..block.len() {
+                let report = self.tracer.report(sample, scratch);
                 result.centers.push(Center { layers: report.layers.len() as u16, visible: report.visible });
             }
         }
@@ -176,14 +211,19 @@ impl<'a> Renderer<'a> {
     }
 }
 
-fn tiles(size: [u32; 2]) -> Vec<PixelRect> {
-    let starts = |length: u32| (0..length).step_by(TILE as usize);
+/// The rectangles of a picture with sides of so many pixels.
+fn tiles(size: [u32; 2], side: u32) -> Vec<PixelRect> {
+    let starts = |length: u32| (0..length).step_by(side as usize);
     starts(size[1])
         .flat_map(|y| {
             starts(size[0])
-                .map(move |x| PixelRect { min: [x, y], max: [(x + TILE).min(size[0]), (y + TILE).min(size[1])] })
+                .map(move |x| PixelRect { min: [x, y], max: [(x + side).min(size[0]), (y + side).min(size[1])] })
         })
         .collect()
+}
+
+fn pixel_rect(x: u32, y: u32) -> PixelRect {
+    PixelRect { min: [x, y], max: [x + 1, y + 1] }
 }
 
 fn pixels_of(rect: &PixelRect) -> impl Iterator<Item = (u32, u32)> + use<> {

@@ -34,7 +34,7 @@ impl Layouts {
                 device,
                 "scene",
                 compute | fragment,
-                &[Read, Read, Read, Read, Read, TexturePages, TexturePages],
+                &[Read, Read, Read, Read, Read, TexturePages, TexturePages, Read],
             ),
             plan: layout(device, "plan", everywhere, &plan),
             layers: layout(device, "layers", compute | fragment, &[ReadWrite, ReadWrite]),

@@ -1,11 +1,12 @@
-//! The instances of a plan as draw calls: one for every chunk of an instance's triangles.
+//! The instances of a plan as draw calls: for runs of clusters of an instance's triangles that are seen and alike.
 
 use glam::{DAffine3, DVec2, DVec3};
 
 use super::Window;
-use super::upload::{Chunk, Range, SceneData};
+use super::clusters::Cluster;
+use super::upload::SceneData;
 use crate::lens::PixelRect;
-use crate::plan::{Instance, Item, Plan};
+use crate::plan::{Instance, Item, Lens, LensSet, Plan};
 use crate::scene::{Aabb, Scene};
 use crate::view::View;
 
@@ -18,35 +19,10 @@ pub enum Culling {
     BackMirrored,
 }
 
-/// Consecutive triangles of an instance with a record of their own.
-#[derive(Debug, Clone, Copy)]
-pub struct Piece<'a> {
-    pub item: &'a Item,
-    /// Into [`Plan::instances`].
-    pub instance: usize,
-    pub range: Range,
-    /// Of its item's.
-    pub first_triangle: u32,
-    pub triangles: u32,
-    /// World space, as shown.
-    bounds: Aabb,
-}
-
-impl Piece<'_> {
-    pub fn instance<'a>(&self, plan: &'a Plan) -> &'a Instance {
-        &plan.instances[self.instance]
-    }
-
-    /// The number of its first triangle among all items'.
-    pub fn key(&self) -> u32 {
-        self.item.first_triangle + self.first_triangle
-    }
-}
-
 /// One draw call.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Draw {
-    /// Number of its piece's record.
+    /// Into [`Plan::instances`], and number of its record.
     pub record: u32,
     /// Into the shared indices.
     pub indices: std::ops::Range<u32>,
@@ -54,77 +30,179 @@ pub struct Draw {
     pub culling: Culling,
     /// Pixels of the window outside which nothing of it is seen.
     pub rect: PixelRect,
-    /// No fragment of it can be removed, translucent, or beyond near and far: it needs no fragment logic.
+    /// All of it is there and opaque, between near and far: it needs no fragment logic.
     pub plain: bool,
-}
-
-/// All instances cut into the chunks of their primitives, in the order that decides ties; of those that lenses move
-/// only what may be seen there.
-pub fn pieces<'a>(scene: &Scene, plan: &'a Plan, data: &SceneData) -> Vec<Piece<'a>> {
-    let of_instance = |(number, instance): (usize, &'a Instance)| {
-        let item = &plan.items[instance.item];
-        let (range, chunks) = data.primitive(item);
-        let shown_from_local = shown_from_local(scene, item, instance);
-        let whole = chunks.len() == 1;
-        let piece = move |chunk: &Chunk| Piece {
-            item,
-            instance: number,
-            range,
-            first_triangle: chunk.first_triangle,
-            triangles: chunk.triangles,
-            bounds: if whole {
-                instance.bounds
-            } else {
-                let shown = Aabb::from_points(chunk.bounds.corners().map(|p| shown_from_local.transform_point3(p)));
-                if instance.is_moved() { shown.intersection(instance.bounds) } else { shown }
-            },
-        };
-        chunks.iter().map(piece).filter(|piece| !piece.bounds.is_empty()).collect::<Vec<_>>()
-    };
-    let mut pieces: Vec<Piece> = plan.instances.iter().enumerate().flat_map(of_instance).collect();
-    pieces.sort_by_key(Piece::key);
-    pieces
 }
 
 pub fn shown_from_local(scene: &Scene, item: &Item, instance: &Instance) -> DAffine3 {
     instance.shown_from_world * scene.models[item.model].nodes[item.node].world_from_local
 }
 
-/// The draws of what a window may show.
-pub fn draws(scene: &Scene, plan: &Plan, window: &Window, pieces: &[Piece]) -> Vec<Draw> {
-    (0u32..)
-        .zip(pieces)
-        .map(|(record, piece)| {
-            let first = piece.range.first_index + 3 * piece.first_triangle;
-            Draw {
-                record,
-                indices: first..first + 3 * piece.triangles,
-                base_vertex: piece.range.base_vertex as i32,
-                culling: culling(scene, plan, piece.item),
-                rect: window.local(&seen_rect(plan, piece)),
-                plain: is_plain(plan, piece),
-            }
-        })
-        .filter(|draw| !draw.rect.is_empty())
-        .collect()
+/// What a frame leaves out beside what lies outside its window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Skip {
+    /// What lenses take away wherever it is.
+    WhatIsGone,
+    /// Nothing: accounts tell of that, too.
+    Nothing,
 }
 
-/// Pixels of the whole picture outside which a piece is not seen: its bounds and, where lenses move it or bring it in,
-/// those lenses.
-fn seen_rect(plan: &Plan, piece: &Piece) -> PixelRect {
-    let bounds = pixel_rect(&plan.view, piece.bounds.corners());
-    let by_lens = |rank: usize| {
-        // Lenses that take whole objects, and rules, act anywhere.
-        if plan.by_pixel.contains(rank) { plan.lenses[rank].rect } else { bounds }
-    };
-    match piece.instance(plan).steps.first() {
-        Some(step) => bounds.intersection(by_lens(step.rank)),
-        None if piece.item.is_alternate() => {
-            let shown = piece.item.shown_by.iter().map(by_lens).reduce(PixelRect::union);
-            bounds.intersection(shown.unwrap_or(PixelRect::EMPTY))
+/// What becomes of a part of an instance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fate {
+    /// All of it is there and opaque, between near and far.
+    Plain,
+    /// Nothing of it is there.
+    Gone,
+    /// Each fragment must ask.
+    Asked,
+}
+
+/// The draws of what a window may show, in the order that decides ties.
+pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, skip: Skip) -> Vec<Draw> {
+    let lenses = Lenses::new(plan);
+    let mut order: Vec<usize> = (0..plan.instances.len()).collect();
+    order.sort_by_key(|instance| plan.items[plan.instances[*instance].item].first_triangle);
+    let mut draws: Vec<Draw> = Vec::new();
+    for number in order {
+        let first_draw = draws.len();
+        let instance = &plan.instances[number];
+        let item = &plan.items[instance.item];
+        let (range, clusters) = uploaded.primitive(item);
+        let shown_from_local = shown_from_local(scene, item, instance);
+        for cluster in clusters {
+            let bounds = shown_bounds(instance, &shown_from_local, cluster, clusters.len());
+            let rect = window.local(&lenses.seen_rect(instance, item, &bounds));
+            if bounds.is_empty() || rect.is_empty() {
+                continue;
+            }
+            let fate = lenses.fate(instance, &bounds);
+            if fate == Fate::Gone && skip == Skip::WhatIsGone {
+                continue;
+            }
+            let first = range.first_index + 3 * cluster.first;
+            let draw = Draw {
+                record: number as u32,
+                indices: first..first + 3 * cluster.count,
+                base_vertex: range.base_vertex as i32,
+                culling: culling(scene, plan, item),
+                rect,
+                plain: fate == Fate::Plain,
+            };
+            match draws.last_mut() {
+                Some(last) if last.goes_on(&draw) => {
+                    last.indices.end = draw.indices.end;
+                    last.rect = last.rect.union(draw.rect);
+                }
+                _ => draws.push(draw),
+            }
         }
-        None => bounds,
+        // Two pipelines an instance rather than two a run: triangles at one depth stand in one cluster.
+        draws[first_draw..].sort_by_key(|draw| !draw.plain);
     }
+    draws
+}
+
+/// World bounds of a cluster of an instance; of a moved one only what may be seen there.
+fn shown_bounds(instance: &Instance, shown_from_local: &DAffine3, cluster: &Cluster, clusters: usize) -> Aabb {
+    if clusters == 1 {
+        return instance.bounds;
+    }
+    let shown = Aabb::from_points(cluster.bounds.corners().map(|p| shown_from_local.transform_point3(p)));
+    if instance.is_moved() { shown.intersection(instance.bounds) } else { shown }
+}
+
+impl Draw {
+    /// Whether another draw only goes on with this one's triangles.
+    fn goes_on(&self, next: &Draw) -> bool {
+        self.record == next.record && self.plain == next.plain && self.indices.end == next.indices.start
+    }
+}
+
+/// What the lenses of a plan may do to bounds.
+struct Lenses<'a> {
+    plan: &'a Plan,
+    /// Of each lens that tests every fragment, in the world; the others may act anywhere.
+    bounds: Vec<Aabb>,
+}
+
+impl<'a> Lenses<'a> {
+    fn new(plan: &'a Plan) -> Self {
+        let bounds = |(rank, lens): (usize, &Lens)| {
+            if plan.by_pixel.contains(rank) { lens.volume.bounds() } else { Aabb::EVERYWHERE }
+        };
+        Self { plan, bounds: plan.lenses.iter().enumerate().map(bounds).collect() }
+    }
+
+    /// Whether a lens or rule may act within bounds.
+    fn reaches(&self, rank: usize, bounds: &Aabb) -> bool {
+        // A rule may hold anywhere.
+        self.bounds.get(rank).is_none_or(|own| own.overlaps(bounds))
+    }
+
+    /// Pixels of the whole picture outside which a part of an instance is not seen: its bounds and, where lenses move
+    /// it or bring it in, those lenses.
+    fn seen_rect(&self, instance: &Instance, item: &Item, bounds: &Aabb) -> PixelRect {
+        let rect = pixel_rect(&self.plan.view, bounds.corners());
+        let around = padded(&self.plan.view, bounds);
+        let by_lens = |rank: usize| {
+            let is_somewhere = self.plan.by_pixel.contains(rank);
+            if is_somewhere { self.plan.lenses[rank].rect } else { rect }
+        };
+        match instance.steps.first() {
+            Some(step) => rect.intersection(by_lens(step.rank)),
+            None if item.is_alternate() => {
+                let showing = item.shown_by.iter().filter(|rank| self.reaches(*rank, &around));
+                rect.intersection(showing.map(by_lens).reduce(PixelRect::union).unwrap_or(PixelRect::EMPTY))
+            }
+            None => rect,
+        }
+    }
+
+    fn fate(&self, instance: &Instance, bounds: &Aabb) -> Fate {
+        let (plan, item) = (self.plan, &self.plan.items[instance.item]);
+        if instance.is_moved() {
+            return Fate::Asked;
+        }
+        let around = padded(&plan.view, bounds);
+        let far = bounds.corners().map(|p| plan.view.depth(p)).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let may_be_plain = !item.translucent && far <= plan.view.far - margin(&plan.view, bounds);
+        if !item.is_alternate() && !plan.altering(item).iter().any(|rank| self.reaches(rank, &around)) {
+            return if may_be_plain { Fate::Plain } else { Fate::Asked };
+        }
+        let Some(holding) = self.holding(item, &around) else { return Fate::Asked };
+        let verdict = plan.walk(instance, |_| holding);
+        match verdict.displayed {
+            false => Fate::Gone,
+            true if may_be_plain && (verdict.stack & plan.translucent()).is_empty() => Fate::Plain,
+            true => Fate::Asked,
+        }
+    }
+
+    /// The lenses that test every fragment, mean something to an item, and hold all of some bounds; `None` where one may
+    /// hold only some of it, or one moves content.
+    fn holding(&self, item: &Item, bounds: &Aabb) -> Option<LensSet> {
+        let mut holding = LensSet::EMPTY;
+        for rank in (self.plan.by_pixel & (item.scope | item.shown_by)).iter().filter(|r| self.reaches(*r, bounds)) {
+            match self.plan.lenses[rank].volume.holds_box(bounds) {
+                Some(false) => {}
+                Some(true) if !item.movers.contains(rank) => holding.insert(rank),
+                _ => return None,
+            }
+        }
+        Some(holding)
+    }
+}
+
+/// How far boundaries that merge, and drawn depths, may be off around bounds: such a share of the depth.
+fn margin(view: &View, bounds: &Aabb) -> f64 {
+    let depths = bounds.corners().map(|p| view.depth(p).abs());
+    2e-5 * depths.into_iter().fold(view.far.abs(), f64::max)
+}
+
+fn padded(view: &View, bounds: &Aabb) -> Aabb {
+    let margin = margin(view, bounds);
+    Aabb { min: bounds.min - margin, max: bounds.max + margin }
 }
 
 /// Pixels around the projection of points, one more on each side; all where one is not in front of the eye.
@@ -147,30 +225,4 @@ fn culling(scene: &Scene, plan: &Plan, item: &Item) -> Culling {
     }
     let world = scene.models[item.model].nodes[item.node].world_from_local;
     if world.matrix3.determinant() < 0.0 { Culling::BackMirrored } else { Culling::Back }
-}
-
-fn is_plain(plan: &Plan, piece: &Piece) -> bool {
-    let item = piece.item;
-    if item.is_alternate() || item.translucent || piece.instance(plan).is_moved() {
-        return false;
-    }
-    let depths = piece.bounds.corners().map(|p| plan.view.depth(p));
-    let far = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
-    // Boundaries that merge, and drawn depths, may be off by such a share of the depth.
-    let margin = 2e-5 * depths.into_iter().map(f64::abs).fold(plan.view.far.abs(), f64::max);
-    if far > plan.view.far - margin {
-        return false;
-    }
-    let around = Aabb { min: piece.bounds.min - margin, max: piece.bounds.max + margin };
-    let changes = |rank: usize| {
-        let takes_away = item.removed_by.contains(rank) || item.movers.contains(rank);
-        takes_away || (plan.lenses[rank].translucent && item.scope.contains(rank))
-    };
-    let reaches = |rank: usize| {
-        item.object.contains(rank)
-            || (plan.by_pixel.contains(rank) && plan.lenses[rank].volume.bounds().overlaps(&around))
-    };
-    // A rule may hold anywhere.
-    let ruled = |rule: usize| plan.rules[rule].translucent || item.removed_by.contains(plan.rule_rank(rule));
-    !(0..plan.lenses.len()).any(|rank| changes(rank) && reaches(rank)) && !(0..plan.rules.len()).any(ruled)
 }

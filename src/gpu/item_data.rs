@@ -1,16 +1,17 @@
-//! The pieces of instances as records, and how lenses move them.
+//! Instances as records, and how lenses move them.
 
 use glam::DAffine3;
 
-use super::draws::{Piece, shown_from_local};
+use super::draws::shown_from_local;
 use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, StepRecord, rows, words_of};
-use crate::plan::{Plan, Step};
+use super::upload::SceneData;
+use crate::plan::{Instance, Plan, Step};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
 
-/// Records of all pieces, and the steps of their instances.
+/// Records of all instances, and their steps.
 #[derive(Debug, Clone, Default)]
 pub struct ItemData {
-    /// A record and its item's masks, for each piece.
+    /// A record and its item's masks, for each instance.
     pub items: Vec<u8>,
     pub steps: Vec<StepRecord>,
 }
@@ -22,16 +23,13 @@ pub fn item_stride(words: u32) -> u64 {
 
 impl ItemData {
     /// `words`: of a set of lenses.
-    pub fn new(scene: &Scene, plan: &Plan, pieces: &[Piece], words: u32) -> Self {
+    pub fn new(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: u32) -> Self {
         let mut data = Self::default();
-        let mut first_steps = Vec::with_capacity(plan.instances.len());
         for instance in &plan.instances {
-            first_steps.push(data.steps.len() as u32);
+            let item = &plan.items[instance.item];
+            let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
-        }
-        for piece in pieces {
-            let item = piece.item;
-            let record = record(scene, plan, piece, first_steps[piece.instance]);
+            let record = ItemRecord { first_step, ..record(scene, plan, instance, uploaded) };
             let end = data.items.len() + item_stride(words) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
             for mask in [item.scope, item.object, item.shown_by, item.removed_by, item.movers] {
@@ -49,9 +47,9 @@ fn step_record(plan: &Plan, step: &Step) -> StepRecord {
     StepRecord { row_x, row_y, row_z, rank: step.rank as u32, pad: [0; 3] }
 }
 
-fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRecord {
-    let Piece { item, range, .. } = *piece;
-    let instance = piece.instance(plan);
+fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData) -> ItemRecord {
+    let item = &plan.items[instance.item];
+    let (range, _) = uploaded.primitive(item);
     let mut around = shown_from_local(scene, item, instance);
     around.translation -= plan.view.eye;
     let [row_x, row_y, row_z] = rows(&around);
@@ -60,11 +58,11 @@ fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRec
         row_y,
         row_z,
         material: item.material as u32,
-        instance: piece.instance as u32,
-        first_triangle: piece.key(),
+        first_triangle: item.first_triangle,
         flags: if item.translucent { ITEM_TRANSLUCENT } else { 0 }
             | if item.is_alternate() { ITEM_ALTERNATE } else { 0 },
-        first_index: range.first_index + 3 * piece.first_triangle,
+        first_index: range.first_index,
+        first_number: range.first_number,
         base_vertex: range.base_vertex,
         normals: range.normals,
         tangents: range.tangents,
@@ -73,9 +71,8 @@ fn record(scene: &Scene, plan: &Plan, piece: &Piece, first_step: u32) -> ItemRec
         uv1: range.uv[1],
         slots: texture_slots(&scene.materials[item.material]),
         center: (item.center - plan.view.eye).as_vec3().to_array(),
-        first_step,
+        first_step: 0,
         step_count: instance.steps.len() as u32,
-        first_vertex: range.base_vertex + piece.first_triangle,
     }
 }
 

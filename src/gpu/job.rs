@@ -1,6 +1,5 @@
 //! A frame ready to be encoded, stage by stage.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::draws::Draw;
@@ -29,27 +28,17 @@ pub struct Job {
     pub positions: wgpu::Buffer,
     pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
-    pub faces: Option<Faces>,
     pub compute: ComputeSteps,
     pub resolve: Resolve,
     pub targets: Arc<Targets>,
     pub groups: Groups,
 }
 
-/// The faces of lenses that are drawn into depth maps.
-#[derive(Debug)]
-pub struct Faces {
-    pub vertices: wgpu::Buffer,
-    pub count: u32,
-    pub pipeline: wgpu::RenderPipeline,
-    /// Bytes of the maps in the buffer of the layers.
-    pub bytes: Range<u64>,
-}
-
 /// What is not drawn but computed.
 #[derive(Debug)]
 pub struct ComputeSteps {
-    pub layers: wgpu::ComputePipeline,
+    /// Where rays are cut into layers.
+    pub layers: Option<wgpu::ComputePipeline>,
     /// When maps are asked for.
     pub aov: Option<wgpu::ComputePipeline>,
 }
@@ -86,32 +75,15 @@ impl Job {
 
     /// Cuts the rays of the pixels that lenses touch into layers.
     pub fn encode_layers(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample) {
-        if self.tiles.active == 0 {
-            return;
-        }
-        if let Some(faces) = &self.faces {
-            self.encode_depth_maps(encoder, sample, faces);
-        }
+        let Some(pipeline) = self.compute.layers.as_ref().filter(|_| self.tiles.active > 0) else { return };
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("layers"), timestamp_writes: None });
-        pass.set_pipeline(&self.compute.layers);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, &self.groups.layers, &[]);
         let width = self.tiles.active.min(DISPATCH_WIDTH);
         pass.dispatch_workgroups(width, self.tiles.active.div_ceil(DISPATCH_WIDTH), 1);
-    }
-
-    fn encode_depth_maps(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, faces: &Faces) {
-        encoder.clear_buffer(&self.targets.layers, faces.bytes.start, Some(faces.bytes.end - faces.bytes.start));
-        // What a pass draws into is masked; the visibility pass clears it.
-        let mut pass = begin_drawing(encoder, "depth maps", &self.targets.ids, None);
-        pass.set_pipeline(&faces.pipeline);
-        pass.set_bind_group(0, &self.groups.scene, &[]);
-        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-        pass.set_bind_group(2, &self.groups.layers, &[]);
-        pass.set_vertex_buffer(0, faces.vertices.slice(..));
-        pass.draw(0..faces.count, 0..1);
     }
 
     /// Draws the scene: once, or once for each layer, farthest first.

@@ -1,9 +1,10 @@
 //! The lenses and rules of a plan as records, with the lists that they point into.
 
-use super::depth_maps::DepthMaps;
+use super::cells::Cells;
 use super::part_data::PartData;
 use super::program::{condition, program};
 use super::records::{self, LensRecord, words_of};
+use crate::lens::Tree;
 use crate::plan::{Lens, LensSet, Plan, Rule};
 use crate::spec::By;
 use crate::view::View;
@@ -17,11 +18,13 @@ pub struct LensData {
 }
 
 impl LensData {
-    /// `words`: of a set of lenses; `crossings`: for how many crossings with one mesh a pixel has room.
-    pub fn new(plan: &Plan, words: u32, maps: &DepthMaps, crossings: u32) -> Self {
+    /// `words`: of a set of lenses; `cells`: of each part; `crossings`: for how many crossings with one mesh a pixel has room.
+    pub fn new(plan: &Plan, words: u32, cells: &[Option<Cells>], crossings: u32) -> Self {
         let mut data = Self::default();
+        let moves = plan.items.iter().any(|item| !item.movers.is_empty());
         for (rank, lens) in (0u32..).zip(&plan.lenses) {
-            let record = data.lens(&plan.view, rank, lens, maps, crossings);
+            let whole = moves || lens.soft > 0.0 || lens.glass.is_some();
+            let record = data.lens(&plan.view, rank, lens, cells, whole, crossings);
             data.push(record, &lens.hides, words);
         }
         for rule in &plan.rules {
@@ -38,12 +41,21 @@ impl LensData {
         self.lenses.resize(self.lenses.len().next_multiple_of(16), 0);
     }
 
-    fn lens(&mut self, view: &View, rank: u32, lens: &Lens, maps: &DepthMaps, crossings: u32) -> LensRecord {
+    fn lens(
+        &mut self,
+        view: &View,
+        rank: u32,
+        lens: &Lens,
+        cells: &[Option<Cells>],
+        whole: bool,
+        crossings: u32,
+    ) -> LensRecord {
         let first_part = self.parts.records.len() as u32;
         for solid in &lens.volume.parts {
-            self.parts.add(view, rank, solid, maps, crossings);
+            let cells = cells[self.parts.records.len()].as_ref();
+            self.parts.add(view, rank, solid, cells, whole, crossings);
         }
-        let program = if lens.volume.lone().is_some() { vec![] } else { program(&lens.volume.tree) };
+        let program = if let Tree::Part(_) = lens.volume.tree { vec![] } else { program(&lens.volume.tree) };
         let mut record = LensRecord {
             first_part,
             part_count: lens.volume.parts.len() as u32,

@@ -1,9 +1,14 @@
 //! What the shaders of a plan must be able to do.
 
+use super::Engine;
+use super::cells::{has_planes, is_convex};
 use super::program::condition;
-use crate::lens::Form;
-use crate::plan::Plan;
+use crate::lens::{Form, Tree, Volume};
+use crate::plan::{Item, Plan};
 use crate::scene::{Primitive, Scene};
+
+/// So few convex parts a fragment asks sooner than it looks up layers that had to be found first.
+const FEW_PARTS: usize = 2;
 
 /// Shaders are compiled for it: what a plan does not need costs it nothing. Where things are makes no difference, so
 /// moving a lens or the camera compiles nothing.
@@ -15,6 +20,11 @@ pub struct Needs {
     pub part_words: u32,
     /// There are lenses or rules.
     pub lenses: bool,
+    /// Rays are cut into layers: a pixel may ask for the lenses around many depths. Else fragments ask the lenses of their
+    /// tile themselves.
+    pub layers: bool,
+    /// Some lens takes something away, or shows something.
+    pub taken_away: bool,
     /// Some lens has several parts or a mesh.
     pub compounds: bool,
     /// Some part of a lens is a sphere, a cone, a capsule, an intersection of half-spaces.
@@ -38,21 +48,29 @@ pub struct Needs {
 }
 
 impl Needs {
-    pub fn of(scene: &Scene, plan: &Plan) -> Self {
+    pub fn of(scene: &Scene, plan: &Plan, engine: Engine) -> Self {
         let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
         let parts = plan.lenses.iter().map(|lens| lens.volume.parts.len());
         let names = plan.rules.iter().map(|rule| condition(&rule.when).0.len());
-        let item_is_translucent = plan.items.iter().any(|item| item.translucent);
+        let translucent = plan.items.iter().any(|item| item.translucent) || !plan.translucent().is_empty();
+        let glass = plan.lenses.iter().any(|lens| lens.glass.is_some());
+        let compounds = plan.lenses.iter().any(|lens| !is_one_convex_part(&lens.volume));
+        let takes_away = |item: &Item| !(item.removed_by | item.shown_by | item.movers).is_empty();
+        let taken_away = plan.items.iter().any(takes_away);
+        let all_parts: usize = plan.lenses.iter().map(|lens| lens.volume.parts.len()).sum();
+        let asks_often = translucent || (glass && compounds) || (taken_away && (compounds || all_parts > FEW_PARTS));
         Self {
             set_words: words(plan.lenses.len() + plan.rules.len()),
             part_words: words(parts.chain(names).max().unwrap_or(1)),
             lenses: !plan.lenses.is_empty() || !plan.rules.is_empty(),
-            compounds: plan.lenses.iter().any(|lens| lens.volume.lone().is_none()),
+            layers: engine == Engine::Peel || asks_often,
+            taken_away,
+            compounds,
             forms: has_forms(plan),
             movers: plan.items.iter().any(|item| !item.movers.is_empty()),
             soft: plan.lenses.iter().any(|lens| lens.soft > 0.0),
-            glass: plan.lenses.iter().any(|lens| lens.glass.is_some()),
-            translucent: item_is_translucent || !plan.translucent().is_empty(),
+            glass,
+            translucent,
             textures: !scene.textures.textures.is_empty(),
             vertex_colors: primitives(scene).any(|p| p.colors.is_some()),
             lights: plan.lighting.lights.len() as u32,
@@ -69,6 +87,8 @@ impl Needs {
         Self {
             part_words: 1,
             lenses: false,
+            layers: false,
+            taken_away: false,
             compounds: false,
             forms: [false; 4],
             movers: false,
@@ -89,6 +109,8 @@ impl Needs {
     pub fn for_accounts(self) -> Self {
         Self {
             lenses: true,
+            layers: true,
+            taken_away: true,
             glass: true,
             translucent: true,
             textures: true,
@@ -103,6 +125,8 @@ impl Needs {
         let Self { set_words, part_words, lights, .. } = self;
         let flags = [
             ("LENSES", self.lenses),
+            ("LAYERS", self.layers),
+            ("TAKEN_AWAY", self.taken_away),
             ("COMPOUNDS", self.compounds),
             ("SPHERES", self.forms[0]),
             ("CONES", self.forms[1]),
@@ -128,15 +152,20 @@ fn primitives(scene: &Scene) -> impl Iterator<Item = &Primitive> {
     scene.models.iter().flat_map(|model| &model.meshes).flat_map(|mesh| &mesh.primitives)
 }
 
+fn is_one_convex_part(volume: &Volume) -> bool {
+    matches!(volume.tree, Tree::Part(part) if is_convex(&volume.parts[part].form))
+}
+
 fn has_forms(plan: &Plan) -> [bool; 4] {
     let mut found = [false; 4];
     for solid in plan.lenses.iter().flat_map(|lens| &lens.volume.parts) {
-        match solid.form {
+        match &solid.form {
             Form::Sphere => found[0] = true,
             Form::Cone { .. } => found[1] = true,
             Form::Capsule { .. } => found[2] = true,
             Form::HalfSpaces { .. } => found[3] = true,
-            Form::Mesh(_) | Form::Empty => {}
+            Form::Mesh(mesh) => found[3] |= has_planes(mesh),
+            Form::Empty => {}
         }
     }
     found

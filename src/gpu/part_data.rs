@@ -1,8 +1,8 @@
 //! The parts of lenses as records: solids as functions of the pixel, and their surfaces.
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
-use super::depth_maps::{DepthMap, DepthMaps};
+use super::cells::{Cells, has_planes};
 use super::records::{self, PartRecord, extended, rows};
 use crate::lens::{Form, MeshSolid, Plane, Solid};
 use crate::view::View;
@@ -61,9 +61,19 @@ impl AffineRay {
     }
 }
 
+/// A part's own space.
+struct PartFrame {
+    local_from_eye: DAffine3,
+    /// The pixels' rays in it.
+    ray: AffineRay,
+    /// From gradients in it to those in the world.
+    to_world: DMat3,
+    perspective: bool,
+}
+
 impl PartData {
-    /// Appends a part of the lens of the given rank.
-    pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, maps: &DepthMaps, crossings: u32) {
+    /// Appends a part of the lens of the given rank. `whole`: a mesh is asked for more than where pixels' rays cross it.
+    pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, cells: Option<&Cells>, whole: bool, crossings: u32) {
         let perspective = view.is_perspective();
         let local_from_eye = solid.local_from_world * DAffine3::from_translation(view.eye);
         let ray = AffineRay::new(view).in_space(&local_from_eye, perspective);
@@ -89,25 +99,31 @@ impl PartData {
             record.corner_count = solid.hull.len() as u32;
             self.vectors.extend(solid.hull.iter().map(|p| extended(*p - view.eye)));
         }
-        self.set_form(&mut record, solid, &local_from_eye, &ray, perspective);
-        if let Form::Mesh(mesh) = &solid.form {
-            self.set_mesh(&mut record, mesh);
-            record.crossing_room = crossings;
-        }
-        if let Some(map) = maps.of_part(self.records.len()) {
-            set_map(&mut record, map, solid.contains(view.eye));
+        let frame = PartFrame { local_from_eye, ray, to_world: normals, perspective };
+        self.set_form(&mut record, solid, &frame);
+        match &solid.form {
+            Form::Mesh(mesh) if has_planes(mesh) => {
+                record.form = records::FORM_HALF_SPACES;
+                self.set_planes(&mut record, mesh.planes(), &frame);
+            }
+            Form::Mesh(mesh) => {
+                record.crossing_room = crossings;
+                let projected = cells.and_then(|cells| cells.projected.as_ref());
+                if whole || projected.is_none() {
+                    self.set_mesh(&mut record, mesh);
+                }
+                if let Some(projected) = projected {
+                    record.first_projected = self.vectors.len() as u32;
+                    record.origin = projected.origin;
+                    self.vectors.extend_from_slice(&projected.vectors);
+                }
+            }
+            _ => {}
         }
         self.records.push(record);
     }
 
-    fn set_form(
-        &mut self,
-        record: &mut PartRecord,
-        solid: &Solid,
-        local_from_eye: &DAffine3,
-        ray: &AffineRay,
-        perspective: bool,
-    ) {
+    fn set_form(&mut self, record: &mut PartRecord, solid: &Solid, frame: &PartFrame) {
         match &solid.form {
             Form::Sphere => record.form = records::FORM_SPHERE,
             Form::Cone { r0, r1 } => {
@@ -120,19 +136,27 @@ impl PartData {
             }
             Form::HalfSpaces { planes, hidden } => {
                 record.form = records::FORM_HALF_SPACES;
-                record.first_plane = self.vectors.len() as u32;
-                record.plane_count = planes.len() as u32;
                 record.hidden = *hidden as u32;
-                let to_world = solid.local_from_world.matrix3.transpose();
-                for plane in planes {
-                    self.vectors.push(ray.plane(plane, perspective));
-                    let gradient = to_world * plane.normal;
-                    let offset = (plane.offset - plane.normal.dot(local_from_eye.translation)) / gradient.length();
-                    self.vectors.push(gradient.normalize_or_zero().extend(offset).as_vec4().to_array());
-                }
+                self.set_planes(record, planes.iter().copied().map(Some), frame);
             }
             Form::Mesh(_) => record.form = records::FORM_MESH,
             Form::Empty => record.form = records::FORM_EMPTY,
+        }
+    }
+
+    /// Planes of the part's own space; `None` stands for one that keeps nothing out.
+    fn set_planes(&mut self, record: &mut PartRecord, planes: impl Iterator<Item = Option<Plane>>, frame: &PartFrame) {
+        record.first_plane = self.vectors.len() as u32;
+        for plane in planes {
+            record.plane_count += 1;
+            let Some(plane) = plane else {
+                self.vectors.extend([[0.0; 4]; 2]);
+                continue;
+            };
+            self.vectors.push(frame.ray.plane(&plane, frame.perspective));
+            let gradient = frame.to_world * plane.normal;
+            let offset = (plane.offset - plane.normal.dot(frame.local_from_eye.translation)) / gradient.length();
+            self.vectors.push(gradient.normalize_or_zero().extend(offset).as_vec4().to_array());
         }
     }
 
@@ -145,11 +169,4 @@ impl PartData {
         record.first_vertex = self.words.len() as u32;
         self.words.extend(mesh.vertices.iter().flat_map(|v| v.as_vec3().to_array()).map(f32::to_bits));
     }
-}
-
-fn set_map(record: &mut PartRecord, map: &DepthMap, holds_eye: bool) {
-    record.flags |= records::PART_DEPTH_MAP | if holds_eye { records::PART_HOLDS_EYE } else { 0 };
-    record.map_first = map.first as u32;
-    record.map_min = map.rect.min;
-    record.map_size = [map.rect.max[0] - map.rect.min[0], map.rect.max[1] - map.rect.min[1]];
 }

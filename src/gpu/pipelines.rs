@@ -5,7 +5,6 @@ use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::bindings::Layouts;
-use super::depth_maps::FaceVertex;
 use super::draws::Culling;
 use super::item_data::item_stride;
 use super::records::ItemRecord;
@@ -62,7 +61,6 @@ impl PipelineStore {
 #[derive(Debug)]
 pub struct Pipelines {
     needs: Needs,
-    depth_map: OnceLock<wgpu::RenderPipeline>,
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::RenderPipeline>,
     aov: OnceLock<wgpu::ComputePipeline>,
@@ -75,7 +73,6 @@ impl Pipelines {
     fn new(needs: Needs) -> Self {
         Self {
             needs,
-            depth_map: OnceLock::new(),
             layers: OnceLock::new(),
             resolve: OnceLock::new(),
             aov: OnceLock::new(),
@@ -83,14 +80,6 @@ impl Pipelines {
             visibility: OnceLock::new(),
             draws: Mutex::default(),
         }
-    }
-
-    pub fn depth_map(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        let build = || {
-            let module = compile(&store.device, Module::DepthMap, &self.needs);
-            depth_map_pipeline(&store.device, &module, &pipeline_layout(store, &store.layouts.layers))
-        };
-        self.depth_map.get_or_init(build).clone()
     }
 
     pub fn layers(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
@@ -190,7 +179,7 @@ fn draw_pipeline(
         field(1, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_x)),
         field(2, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_y)),
         field(3, wgpu::VertexFormat::Float32x4, offset_of!(ItemRecord, row_z)),
-        field(4, wgpu::VertexFormat::Uint32, offset_of!(ItemRecord, first_vertex)),
+        field(4, wgpu::VertexFormat::Uint32, offset_of!(ItemRecord, base_vertex)),
     ];
     let front_face = if culling == Culling::BackMirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -232,43 +221,6 @@ fn draw_pipeline(
             entry_point: Some(entry),
             compilation_options: Default::default(),
             targets: &[Some(ID_FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
-
-fn depth_map_pipeline(
-    device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    layout: &wgpu::PipelineLayout,
-) -> wgpu::RenderPipeline {
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32];
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("depth map"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("face_vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<FaceVertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &attributes,
-            })],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("face_fragment"),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: ID_FORMAT,
-                blend: None,
-                write_mask: wgpu::ColorWrites::empty(),
-            })],
         }),
         multiview_mask: None,
         cache: None,

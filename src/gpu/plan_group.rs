@@ -63,7 +63,7 @@ impl PlanContents<'_> {
 
 /// A buffer of the plan, never smaller than any record. Its label starts with whose it is: what is the window's gets
 /// smaller with the window.
-pub fn plan_buffer(
+fn plan_buffer(
     device: &wgpu::Device,
     allowed: u64,
     label: &str,
@@ -71,7 +71,12 @@ pub fn plan_buffer(
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
     check_size(allowed, label, bytes.len() as u64)?;
-    let mut contents = bytes.to_vec();
-    contents.resize(contents.len().max(1024), 0);
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents: &contents, usage }))
+    let mut padded = [0; 1024];
+    let contents = if bytes.len() < padded.len() {
+        padded[..bytes.len()].copy_from_slice(bytes);
+        &padded
+    } else {
+        bytes
+    };
+    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
 }

@@ -22,8 +22,6 @@ pub const LENS_GLASS: u32 = 1;
 pub const LENS_BY_OBJECT: u32 = 2;
 
 pub const PART_FLAT: u32 = 1;
-pub const PART_DEPTH_MAP: u32 = 2;
-pub const PART_HOLDS_EYE: u32 = 4;
 
 /// One sample, or one layer of one, of a frame.
 #[repr(C)]
@@ -61,14 +59,14 @@ pub struct FrameRecord {
     pub after_depth: f32,
     /// The number of its triangle among all; `u32::MAX` for pictures.
     pub after_key: u32,
-    /// The number of its record.
+    /// Into `Plan::instances`.
     pub after_item: u32,
     pub pad: [u32; 4],
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
 }
 
-/// One way in which an item is shown, or a chunk of its triangles; its masks follow.
+/// One instance of an item; its masks follow.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ItemRecord {
@@ -77,11 +75,12 @@ pub struct ItemRecord {
     pub row_y: [f32; 4],
     pub row_z: [f32; 4],
     pub material: u32,
-    /// Into `Plan::instances`.
-    pub instance: u32,
+    /// The number of its item's first triangle among all.
     pub first_triangle: u32,
     pub flags: u32,
     pub first_index: u32,
+    /// Where the numbers start that its triangles have in their primitive.
+    pub first_number: u32,
     pub base_vertex: u32,
     /// Where each attribute starts, in floats, or `u32::MAX`.
     pub normals: u32,
@@ -95,8 +94,6 @@ pub struct ItemRecord {
     pub center: [f32; 3],
     pub first_step: u32,
     pub step_count: u32,
-    /// The vertex at which its first triangle starts, of all vertices.
-    pub first_vertex: u32,
 }
 
 /// A lens that moves content, on the way down from a shown point.
@@ -120,7 +117,7 @@ pub struct LensRecord {
     /// Its parts; of a rule the sets of its names, in words.
     pub first_part: u32,
     pub part_count: u32,
-    /// Its program; none where a lens is one convex part.
+    /// Its program; none where a lens is one part.
     pub first_token: u32,
     pub token_count: u32,
     pub first_op: u32,
@@ -157,10 +154,6 @@ pub struct PartRecord {
     pub r0: f32,
     pub r1: f32,
     pub length: f32,
-    /// Where its depth map starts behind the layers, in words, and the pixels of the window that it covers.
-    pub map_first: u32,
-    pub map_min: [u32; 2],
-    pub map_size: [u32; 2],
     /// Words of a mesh: its nodes, triangles and corners.
     pub first_node: u32,
     pub node_count: u32,
@@ -168,7 +161,11 @@ pub struct PartRecord {
     pub first_vertex: u32,
     /// For how many of its crossings a pixel has room.
     pub crossing_room: u32,
-    pub pad: [u32; 3],
+    /// Of a mesh in front of the eye: its triangles in the picture, among the vectors, and the point of the picture that
+    /// they start from.
+    pub first_projected: u32,
+    pub pad: u32,
+    pub origin: [f32; 2],
 }
 
 /// How a texture is sampled and where its levels lie on the pages.

@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use super::bindings;
-use super::depth_maps::DepthMaps;
-use super::draws::{self, Draw, Piece};
+use super::draws::{self, Draw, Skip};
 use super::frame::{self, FrameShape, Place, Sample};
 use super::item_data::ItemData;
-use super::job::{ComputeSteps, ExplainPass, Faces, Groups, Job, Resolve};
+use super::job::{ComputeSteps, ExplainPass, Groups, Job, Resolve};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
-use super::plan_group::{PlanContents, PlanGroup, plan_buffer};
+use super::plan_group::{PlanContents, PlanGroup};
 use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
@@ -147,12 +146,14 @@ impl Renderer {
         options: RenderOptions,
         after: Option<Place>,
     ) -> Result<Job, Error> {
-        let needs = Needs::of(scene, plan);
+        let needs = Needs::of(scene, plan, options.engine);
+        // Maps count layers, whether the picture asks for them or not.
+        let cuts_layers = needs.layers || options.aovs;
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
-        let depth_maps = DepthMaps::new(plan, &window, tiles.layer_words);
         let fragments = self.reserved.fragments.max(first_guess(plan, &window));
-        let targets = self.targets(device, &window, plan.samples, depth_maps.end_word, fragments)?;
+        let targets =
+            self.targets(device, &window, plan.samples, if cuts_layers { tiles.layer_words } else { 0 }, fragments)?;
         let room = Room { fragments: targets.fragments.size() / FRAGMENT_BYTES, ..self.reserved };
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
@@ -172,17 +173,17 @@ impl Renderer {
             .aovs
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
-        let pieces = draws::pieces(scene, plan, &self.scene);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
-            items: &ItemData::new(scene, plan, &pieces, words),
-            lenses: &LensData::new(plan, words, &depth_maps, room.crossings),
+            items: &ItemData::new(scene, plan, &self.scene, words),
+            lenses: &LensData::new(plan, words, &tiles.cells, room.crossings),
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
         let groups = self.groups(device, group, &targets, &needed, maps.as_ref());
         let pipelines = self.store.get(needs.without_shading());
+        let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
         Ok(Job {
             needs,
             samples,
@@ -194,15 +195,12 @@ impl Renderer {
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, &pieces, program_of(options.engine, after.is_some()), &pipelines),
+            draws: self.draws(scene, plan, &window, skip, program_of(options.engine, after.is_some()), &pipelines),
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             items,
-            faces: (!depth_maps.vertices.is_empty())
-                .then(|| self.faces(device, &depth_maps, &pipelines))
-                .transpose()?,
             compute: ComputeSteps {
-                layers: pipelines.layers(&self.store),
+                layers: cuts_layers.then(|| pipelines.layers(&self.store)),
                 aov: options.aovs.then(|| self.store.get(needs.for_accounts()).aov(&self.store)),
             },
             resolve: Resolve {
@@ -220,33 +218,17 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         window: &Window,
-        pieces: &[Piece],
+        skip: Skip,
         program: impl Fn(&Draw) -> Program,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
-        draws::draws(scene, plan, window, pieces)
+        draws::draws(scene, plan, window, &self.scene, skip)
             .into_iter()
             .map(|draw| {
                 let pipeline = pipelines.draw(&self.store, program(&draw), draw.culling);
                 (draw, pipeline)
             })
             .collect()
-    }
-
-    fn faces(&self, device: &wgpu::Device, maps: &DepthMaps, pipelines: &Pipelines) -> Result<Faces, Error> {
-        let bytes = bytemuck::cast_slice(&maps.vertices);
-        Ok(Faces {
-            vertices: plan_buffer(
-                device,
-                self.largest_buffer,
-                "the window's faces of lenses",
-                bytes,
-                wgpu::BufferUsages::VERTEX,
-            )?,
-            count: maps.vertices.len() as u32,
-            pipeline: pipelines.depth_map(&self.store),
-            bytes: 4 * maps.first_word..4 * maps.end_word,
-        })
     }
 
     fn targets(

@@ -5,7 +5,6 @@ use super::Needs;
 /// A shader module: what one pipeline or a few of them run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Module {
-    DepthMap,
     Layers,
     Visibility,
     Resolve,
@@ -14,13 +13,11 @@ pub enum Module {
 }
 
 impl Module {
-    pub const ALL: [Module; 6] =
-        [Module::DepthMap, Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Explain];
+    pub const ALL: [Module; 5] = [Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Explain];
 
     /// How labels and messages call it.
     pub fn name(self) -> &'static str {
         match self {
-            Module::DepthMap => "depth map",
             Module::Layers => "layers",
             Module::Visibility => "visibility",
             Module::Resolve => "resolve",
@@ -31,7 +28,6 @@ impl Module {
 
     fn parts(self) -> &'static [&'static [&'static str]] {
         match self {
-            Module::DepthMap => &[&[PLANE, DEPTH_MAP]],
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
             Module::Visibility => &[&[VISIBILITY], VOLUMES, CLASSIFYING],
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, RESOLVE]],
@@ -44,7 +40,7 @@ impl Module {
 /// Where rays cross lens volumes.
 const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
 /// Who acts on a fragment.
-const CLASSIFYING: &[&str] = &[SET, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
+const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
 /// What a fragment looks like.
 const SHADING: &[&str] = &[TEXTURE, SOFT, STACK, SHADE, FRAGMENTS];
 
@@ -55,12 +51,12 @@ const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
 const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
 const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
 const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
+const ASKED: &str = include_str!("../../shaders/gpu/asked.wgsl");
 const MOVED: &str = include_str!("../../shaders/gpu/moved.wgsl");
 const WALK: &str = include_str!("../../shaders/gpu/walk.wgsl");
 const SOFT: &str = include_str!("../../shaders/gpu/soft.wgsl");
 const STACK: &str = include_str!("../../shaders/gpu/stack.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
-const DEPTH_MAP: &str = include_str!("../../shaders/gpu/depth_map.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
 const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");

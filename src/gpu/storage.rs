@@ -1,6 +1,5 @@
 //! How much memory lenses take on the device.
 
-use super::depth_maps::DepthMaps;
 use super::headless::smaller;
 use super::lens_data::LensData;
 use super::renderer::Renderer;
@@ -13,13 +12,11 @@ use crate::scene::Scene;
 pub struct LensStorage {
     /// The layers of the pixels of tiles that lenses touch.
     pub layers: u64,
-    /// Entry and exit faces of lenses with many planes.
-    pub depth_maps: u64,
     /// Fragments that may be translucent.
     pub fragments: u64,
     /// The newest fragment of each pixel.
     pub heads: u64,
-    /// Which lenses touch which tiles.
+    /// Which lenses touch which tiles, and with which faces.
     pub tiles: u64,
     /// Lenses, their parts, planes, programs and meshes.
     pub records: u64,
@@ -27,16 +24,9 @@ pub struct LensStorage {
 
 impl LensStorage {
     /// Each amount and what it is for.
-    pub fn parts(&self) -> [(&'static str, u64); 6] {
-        let Self { layers, depth_maps, fragments, heads, tiles, records } = *self;
-        [
-            ("layers", layers),
-            ("depth maps", depth_maps),
-            ("fragments", fragments),
-            ("heads", heads),
-            ("tiles", tiles),
-            ("lens records", records),
-        ]
+    pub fn parts(&self) -> [(&'static str, u64); 5] {
+        let Self { layers, fragments, heads, tiles, records } = *self;
+        [("layers", layers), ("fragments", fragments), ("heads", heads), ("tiles", tiles), ("lens records", records)]
     }
 
     pub fn total(&self) -> u64 {
@@ -60,12 +50,9 @@ impl Headless {
             match renderer.prepare(&self.device, scene, plan, window, options) {
                 Err(error) => windows.extend(smaller(&window, error)?),
                 Ok(job) => {
-                    let maps = DepthMaps::new(plan, &window, job.tiles.layer_words);
-                    let records = LensData::new(plan, job.words, &maps, job.room.crossings);
-                    let depth_maps = 4 * (maps.end_word - maps.first_word);
+                    let records = LensData::new(plan, job.words, &job.tiles.cells, job.room.crossings);
                     let storage = LensStorage {
-                        layers: job.targets.layers.size().saturating_sub(depth_maps),
-                        depth_maps,
+                        layers: job.targets.layers.size(),
                         fragments: job.targets.fragments.size(),
                         heads: job.targets.heads.size(),
                         tiles: 4 * job.tiles.words.len() as u64,

@@ -1,6 +1,8 @@
 //! Which parts of lenses may touch which 16 by 16 pixels, and where those pixels' layers are stored.
 
 use super::Window;
+use super::cells::{Cells, is_convex};
+use super::records::NONE;
 use crate::lens::{LayerStart, LensSet, PixelRect, Solid};
 use crate::plan::Plan;
 
@@ -9,11 +11,16 @@ pub const TILE: u32 = 16;
 /// Workgroups in a row of the layer pass; `DISPATCH_WIDTH` of the shaders.
 pub const DISPATCH_WIDTH: u32 = 1024;
 
+/// Words of a part of a tile; `PART_WORDS_OF_TILE` of the shaders.
+const PART_WORDS: u32 = 3;
+
 /// The tiles of a window as the shaders read them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tiles {
     /// Four words a tile (first word of its layers, words a pixel, first part, parts), the numbers of all tiles, first
-    /// of those that lenses touch, and the lists of parts.
+    /// of those that lenses touch; for each part of a tile three words (the part, where its cells are listed or
+    /// [`NONE`], cells along each side of the tile); and for each part with cells in a tile where the faces of each of its
+    /// cells start, where those of the last one end, and the faces.
     pub words: Vec<u32>,
     /// All tiles.
     pub count: u32,
@@ -23,6 +30,8 @@ pub struct Tiles {
     pub layer_words: u64,
     /// The most layers that a pixel has room for.
     pub most_layers: u32,
+    /// Of each part of a lens, where its faces are listed.
+    pub cells: Vec<Option<Cells>>,
     /// Words of a layer.
     stride: u32,
 }
@@ -46,9 +55,10 @@ impl Tiles {
         let columns = window.size[0].div_ceil(TILE);
         let rows = window.size[1].div_ceil(TILE);
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
-        let mut room = Vec::new();
+        let (mut room, mut cells) = (Vec::new(), Vec::new());
         for (part, (solid, rect)) in (0u32..).zip(parts(plan, window)) {
-            room.push(if solid.form.is_convex() { 2 } else { crossings });
+            room.push(if is_convex(&solid.form) { 2 } else { crossings });
+            cells.push(if rect.is_empty() { None } else { Cells::new(&plan.view, window, solid, &rect) });
             if rect.is_empty() {
                 continue;
             }
@@ -58,7 +68,7 @@ impl Tiles {
                 }
             }
         }
-        Self::from_lists(&lists, &room, set_words)
+        Self::from_lists(&lists, columns, &room, cells, set_words)
     }
 
     /// The layers of each pixel of a window of the given width and height, read back from the device.
@@ -82,8 +92,8 @@ impl Tiles {
             .collect()
     }
 
-    /// `room`: how many boundaries each part may have on a ray.
-    fn from_lists(lists: &[Vec<u32>], room: &[u32], set_words: u32) -> Self {
+    /// `lists`: the parts of each tile, row by row; `room`: how many boundaries each part may have on a ray.
+    fn from_lists(lists: &[Vec<u32>], columns: u32, room: &[u32], cells: Vec<Option<Cells>>, set_words: u32) -> Self {
         let (active, rest): (Vec<u32>, Vec<u32>) =
             (0..lists.len() as u32).partition(|tile| !lists[*tile as usize].is_empty());
         let layer = 1 + set_words;
@@ -97,13 +107,38 @@ impl Tiles {
             most_layers = most_layers.max(boundaries + 1);
             words.extend([layer_words as u32, stride, next_part, count]);
             layer_words += u64::from(stride) * u64::from(TILE * TILE);
-            next_part += count;
+            next_part += PART_WORDS * count;
         }
         words.extend(active.iter().chain(&rest));
-        words.extend(lists.iter().flatten());
+        let mut tables = Vec::new();
+        for (tile, list) in (0u32..).zip(lists) {
+            for part in list {
+                let (table, side) = match &cells[*part as usize] {
+                    Some(cells) => {
+                        let at = next_part + tables.len() as u32;
+                        push_cells(&mut tables, next_part, cells, [tile % columns, tile / columns]);
+                        (at, cells.side)
+                    }
+                    None => (NONE, 0),
+                };
+                words.extend([*part, table, side]);
+            }
+        }
+        words.extend(tables);
         let count = lists.len() as u32;
-        Self { words, count, active: active.len() as u32, layer_words, most_layers, stride: layer }
+        Self { words, count, active: active.len() as u32, layer_words, most_layers, cells, stride: layer }
     }
+}
+
+/// Appends the cells of a part in a tile; `before`: how many words stand before the tables.
+fn push_cells(tables: &mut Vec<u32>, before: u32, cells: &Cells, tile: [u32; 2]) {
+    let mut end = before + tables.len() as u32 + cells.side * cells.side + 1;
+    tables.push(end);
+    for faces in cells.of_tile(tile) {
+        end += faces.len() as u32;
+        tables.push(end);
+    }
+    tables.extend(cells.of_tile(tile).flatten());
 }
 
 #[cfg(test)]
@@ -112,18 +147,18 @@ mod tests {
 
     #[test]
     fn storage_grows_with_the_tiles_that_lenses_touch() {
-        let none = Tiles::from_lists(&[vec![], vec![]], &[], 1);
+        let none = Tiles::from_lists(&[vec![], vec![]], 1, &[], vec![], 1);
         assert_eq!((none.active, none.layer_words), (0, 0));
-        let two = Tiles::from_lists(&[vec![], vec![0, 5], vec![3]], &[2; 6], 2);
+        let two = Tiles::from_lists(&[vec![], vec![0, 5], vec![3]], 3, &[2; 6], vec![None; 6], 2);
         assert_eq!(two.active, 2);
         let (of_two, of_one) = (1 + 5 * 3, 1 + 3 * 3);
         assert_eq!(two.layer_words, 256 * (of_two + of_one));
         assert_eq!(two.words[4..8], [0, 16, 15, 2]);
-        assert_eq!(two.words[8..12], [256 * 16, 10, 17, 1]);
+        assert_eq!(two.words[8..12], [256 * 16, 10, 21, 1]);
         assert_eq!(two.words[12..15], [1, 2, 0], "the tiles that lenses touch come first");
-        assert_eq!(two.words[15..], [0, 5, 3]);
+        assert_eq!(two.words[15..], [0, NONE, 0, 5, NONE, 0, 3, NONE, 0]);
         assert_eq!(two.most_layers, 5);
-        let mesh = Tiles::from_lists(&[vec![0, 1]], &[2, 8], 1);
+        let mesh = Tiles::from_lists(&[vec![0, 1]], 1, &[2, 8], vec![None, None], 1);
         assert_eq!((mesh.layer_words, mesh.most_layers), (256 * (1 + 11 * 2), 11));
     }
 }

@@ -5,47 +5,25 @@ use std::collections::HashMap;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 use super::atlas::Atlas;
+use super::clusters::{Cluster, Clustered};
 use super::provoking::Provoking;
 use super::records::NONE;
 use super::{Error, bindings};
 use crate::plan::Item;
-use crate::scene::{Aabb, Primitive, Scene};
+use crate::scene::{Primitive, Scene};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
     pub first_index: u32,
+    /// Where the numbers start that its triangles have in the primitive.
+    pub first_number: u32,
     pub base_vertex: u32,
     /// Floats, or [`NONE`].
     pub normals: u32,
     pub tangents: u32,
     pub colors: u32,
     pub uv: [u32; 2],
-}
-
-/// Consecutive triangles of a primitive, drawn by one call.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Chunk {
-    pub first_triangle: u32,
-    pub triangles: u32,
-    /// In the node's local space.
-    pub bounds: Aabb,
-}
-
-/// So many triangles at the most are drawn by one call: of a large mesh only the part that a lens reaches then pays
-/// for fragments that find their layer. Small enough to follow a lens's outline, large enough to keep calls few.
-const CHUNK: usize = 8192;
-
-fn chunks(primitive: &Primitive) -> Vec<Chunk> {
-    let corner = |i: &u32| primitive.positions[*i as usize].as_dvec3();
-    (0u32..)
-        .zip(primitive.triangles.chunks(CHUNK))
-        .map(|(number, triangles)| Chunk {
-            first_triangle: number * CHUNK as u32,
-            triangles: triangles.len() as u32,
-            bounds: Aabb::from_points(triangles.iter().flatten().map(corner)),
-        })
-        .collect()
 }
 
 /// Model, mesh and primitive.
@@ -57,7 +35,7 @@ pub struct SceneData {
     pub positions: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub bind_group: wgpu::BindGroup,
-    primitives: HashMap<Place, (Range, Vec<Chunk>)>,
+    primitives: HashMap<Place, (Range, Vec<Cluster>)>,
 }
 
 /// The shared buffers while they are filled.
@@ -66,13 +44,17 @@ struct Lists {
     positions: Vec<f32>,
     indices: Vec<u32>,
     attributes: Vec<f32>,
+    numbers: Vec<u32>,
 }
 
 impl Lists {
-    fn add(&mut self, primitive: &Primitive) -> Range {
-        let order = Provoking::new(primitive.positions.len(), &primitive.triangles);
+    fn add(&mut self, primitive: &Primitive, Clustered { order, clusters }: Clustered) -> (Range, Vec<Cluster>) {
+        let numbers = order;
+        let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| primitive.triangles[*number as usize]).collect();
+        let order = Provoking::new(primitive.positions.len(), &triangles);
         let range = Range {
             first_index: self.indices.len() as u32,
+            first_number: self.numbers.len() as u32,
             base_vertex: (self.positions.len() / 3) as u32,
             normals: self.attribute(&order, primitive.normals.as_deref()),
             tangents: self.attribute(&order, primitive.tangents.as_deref()),
@@ -81,7 +63,8 @@ impl Lists {
         };
         self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
-        range
+        self.numbers.extend(numbers);
+        (range, clusters)
     }
 
     fn attribute<T: bytemuck::Pod>(&mut self, order: &Provoking, values: Option<&[T]>) -> u32 {
@@ -104,7 +87,7 @@ impl SceneData {
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
                 for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    primitives.insert((m, i, p), (lists.add(primitive), chunks(primitive)));
+                    primitives.insert((m, i, p), lists.add(primitive, Clustered::new(primitive)));
                 }
             }
         }
@@ -115,6 +98,7 @@ impl SceneData {
         let positions = storage("positions", bytemuck::cast_slice(&lists.positions), wgpu::BufferUsages::VERTEX)?;
         let indices = storage("indices", bytemuck::cast_slice(&lists.indices), wgpu::BufferUsages::INDEX)?;
         let attributes = storage("attributes", bytemuck::cast_slice(&lists.attributes), none)?;
+        let numbers = storage("numbers of triangles", bytemuck::cast_slice(&lists.numbers), none)?;
         let materials = storage("materials", bytemuck::cast_slice(&scene.materials), none)?;
         let atlas = Atlas::new(device, queue, &scene.textures)?;
         let textures = storage("textures", bytemuck::cast_slice(&atlas.infos), none)?;
@@ -130,15 +114,16 @@ impl SceneData {
                 textures.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&atlas.linear),
                 wgpu::BindingResource::TextureView(&atlas.srgb),
+                numbers.as_entire_binding(),
             ],
         );
         Ok(Self { positions, indices, bind_group, primitives })
     }
 
-    /// Where an item's primitive lies, and its chunks.
-    pub fn primitive(&self, item: &Item) -> (Range, &[Chunk]) {
-        let (range, chunks) = &self.primitives[&(item.model, item.mesh, item.primitive)];
-        (*range, chunks)
+    /// Where an item's primitive lies, and its clusters.
+    pub fn primitive(&self, item: &Item) -> (Range, &[Cluster]) {
+        let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive)];
+        (*range, clusters)
     }
 }
 

@@ -99,7 +99,8 @@ pub fn hull_form(points: &[DVec3]) -> Result<(Form, DAffine3), FlatPoints> {
     let half = DVec3::splat(0.5 * hull.size);
     let vertices = hull.vertices.iter().map(|p| (*p - bounds.center()) / half).collect();
     let pose = DAffine3::from_scale_rotation_translation(half, DQuat::IDENTITY, bounds.center());
-    Ok((Form::Mesh(Arc::new(MeshSolid::new(vertices, &hull.triangles))), pose))
+    let solid = MeshSolid { is_convex: true, ..MeshSolid::new(vertices, &hull.triangles) };
+    Ok((Form::Mesh(Arc::new(solid)), pose))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Lens volumes: sets in world space put together from parts, and where rays cross them.
 
+mod boxes;
 mod build;
 mod form;
 mod halfspaces;

@@ -88,6 +88,7 @@ pub(super) fn collect(
             else {
                 continue;
             };
+            let bounds = model.primitive_bounds(node);
             let center = model.node_bounds(node).center();
             for (index, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
                 if primitive.triangles.is_empty() {
@@ -103,7 +104,7 @@ pub(super) fn collect(
                     material,
                     first_triangle: first_triangle as u32,
                     triangles: primitive.triangles.len() as u32,
-                    bounds: primitive.bounds(&model.nodes[node].world_from_local),
+                    bounds: bounds[index],
                     center,
                     translucent: scene.materials[material].may_be_translucent(),
                     scope: LensSet::EMPTY,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Lens, LensSet, Op, Plan, filter_name};
+use super::{Item, Lens, LensSet, Op, Plan, filter_name};
 use crate::scene::Scene;
 use crate::spec::{Condition, Filter, Spec};
 
@@ -102,5 +102,15 @@ impl Plan {
         let lenses = (0..self.lenses.len()).filter(|rank| self.lenses[*rank].translucent);
         let rules = (0..self.rules.len()).filter(|rule| self.rules[*rule].translucent);
         lenses.chain(rules.map(|rule| self.rule_rank(rule))).collect()
+    }
+
+    /// The ranks that stand for rules.
+    pub fn rule_ranks(&self) -> LensSet {
+        LensSet::below(self.lenses.len() + self.rules.len()).minus(LensSet::below(self.lenses.len()))
+    }
+
+    /// The lenses and rules that may take fragments of an item in place away, or make them less than opaque.
+    pub fn altering(&self, item: &Item) -> LensSet {
+        item.removed_by | item.movers | (self.translucent() & (item.scope | self.rule_ranks()))
     }
 }

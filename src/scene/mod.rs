@@ -3,6 +3,7 @@
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
 mod animation;
+mod bounds;
 mod lens_meshes;
 mod load;
 mod materials;
@@ -13,6 +14,7 @@ mod pose;
 mod textures;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
+pub use bounds::BoundsCache;
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;

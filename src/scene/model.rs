@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
-use super::{Animation, Transform};
+use super::{Animation, BoundsCache, Transform};
 
 /// One glTF file, with one of its scenes chosen. Indices are those of the file.
 #[derive(Debug, Clone, Default)]
@@ -28,6 +28,7 @@ pub struct Model {
     pub extensions: Vec<String>,
     /// What was left out or repaired, one line each, with the object named.
     pub warnings: Vec<String>,
+    pub bounds_cache: BoundsCache,
 }
 
 #[derive(Debug, Clone)]
@@ -283,21 +284,6 @@ impl Aabb {
 }
 
 impl Model {
-    /// Tight world bounds of the node's own mesh; empty without triangles.
-    pub fn node_bounds(&self, node: usize) -> Aabb {
-        let node = &self.nodes[node];
-        let Some(mesh) = node.mesh else { return Aabb::EMPTY };
-        self.meshes[mesh]
-            .primitives
-            .iter()
-            .fold(Aabb::EMPTY, |bounds, primitive| bounds.union(primitive.bounds(&node.world_from_local)))
-    }
-
-    /// Tight world bounds of what the chosen scene draws.
-    pub fn bounds(&self) -> Aabb {
-        (0..self.nodes.len()).filter(|i| self.nodes[*i].drawn).fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
-    }
-
     /// Images that texture slots of materials use, ascending. The others are one white pixel each.
     pub fn used_images(&self) -> Vec<usize> {
         let references = self.materials.iter().flat_map(Material::textures);
@@ -305,20 +291,5 @@ impl Model {
         images.sort_unstable();
         images.dedup();
         images
-    }
-}
-
-impl Primitive {
-    /// Tight bounds of the vertices that triangles use, after `to_from`.
-    pub fn bounds(&self, to_from: &DAffine3) -> Aabb {
-        let mut used = vec![false; self.positions.len()];
-        self.triangles.iter().flatten().for_each(|i| used[*i as usize] = true);
-        Aabb::from_points(
-            self.positions
-                .iter()
-                .zip(used)
-                .filter(|(_, used)| *used)
-                .map(|(p, _)| to_from.transform_point3(p.as_dvec3())),
-        )
     }
 }

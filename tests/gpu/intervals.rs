@@ -1,10 +1,10 @@
-//! Depth intervals as the device finds them (closed forms in f32, faces drawn into depth maps) against the closed
-//! forms in f64, on random placements.
+//! Depth intervals as the device finds them (closed forms in f32, faces listed for the cells of tiles) against the
+//! closed forms in f64, on random placements.
 
 use std::f64::consts::TAU;
 
 use lenspeel::gpu::{Headless, Window};
-use lenspeel::lens::{LayerStart, RayLayers};
+use lenspeel::lens::{Form, LayerStart, RayLayers};
 use lenspeel::plan::Plan;
 use lenspeel::scene::Scene;
 
@@ -39,7 +39,8 @@ pub fn random_placements(device: &Headless) -> Result<(), String> {
     let cut_orthographic = format!("{ORTHOGRAPHIC}\nnear = 3.3\nfar = 3.8");
     for (number, camera) in [PERSPECTIVE, ORTHOGRAPHIC, inside, &cut, &cut_orthographic].into_iter().enumerate() {
         for seed in 0..PLACEMENTS {
-            let lenses = shapes(&mut Random(u64::from(seed) * 100 + number as u64));
+            let mut random = Random(u64::from(seed) * 100 + number as u64);
+            let lenses = shapes(&mut random) + &large_hulls(&mut random);
             compare(device, camera, &lenses).map_err(|e| format!("camera {number}, seed {seed}: {e}"))?;
         }
     }
@@ -58,16 +59,27 @@ pub fn shapes(random: &mut Random) -> String {
         format!("cylinder = {{ from = {}, to = {}, radius = 0.2 }}", random.point(), random.point()),
         format!("cone = {{ from = {}, to = {}, from_radius = 0.3, to_radius = 0.05 }}", random.point(), random.point()),
         format!("capsule = {{ from = {}, to = {}, radius = 0.15 }}", random.point(), random.point()),
-        format!("hull = {{ points = [{}] }}", hull(random)),
+        format!("hull = {{ points = [{}] }}", hull(random, 30)),
     ];
     let lens = |(i, shape): (usize, &String)| format!("[[lens]]\nname = \"l{i}\"\nshape.{shape}\nfilters = []\n");
     shapes.iter().enumerate().map(lens).collect()
 }
 
+/// Hulls with more faces: of the first the planes are asked, of the second the triangles.
+fn large_hulls(random: &mut Random) -> String {
+    let lens = |points| {
+        format!(
+            "[[lens]]\nname = \"h{points}\"\nshape.hull = {{ points = [{}] }}\nfilters = []\n",
+            hull(random, points)
+        )
+    };
+    [100, 400].map(lens).concat()
+}
+
 /// Points all over a bent ball, so that its hull has many faces.
-fn hull(random: &mut Random) -> String {
+fn hull(random: &mut Random, points: u32) -> String {
     let (x, z) = (random.range(-0.4, 0.4), random.range(-0.4, 0.4));
-    let points: Vec<String> = (0..30)
+    let points: Vec<String> = (0..points)
         .map(|_| {
             let (turn, y) = (random.range(0.0, TAU), random.range(-1.0, 1.0));
             let r = (1.0 - y * y).sqrt();
@@ -79,9 +91,15 @@ fn hull(random: &mut Random) -> String {
 
 fn compare(device: &Headless, camera: &str, lenses: &str) -> Result<(), String> {
     let (scene, plan) = planned(SIZE, 1, camera, lenses);
-    let hull = plan.lenses.last().ok_or("there are lenses")?;
-    if !matches!(&hull.volume.parts[0].form, lenspeel::lens::Form::HalfSpaces { planes, .. } if planes.len() > 20) {
-        return Err("the hull should have many faces".into());
+    let faces = |lens: &lenspeel::plan::Lens| match &lens.volume.parts[0].form {
+        Form::HalfSpaces { planes, .. } => planes.len(),
+        Form::Mesh(mesh) => mesh.triangles.len(),
+        _ => 0,
+    };
+    let mut most: Vec<usize> = plan.lenses.iter().map(faces).collect();
+    most.sort_unstable();
+    if !matches!(most[..], [.., 20..=64, 65..=256, 257..=usize::MAX]) {
+        return Err(format!("the hulls should have other numbers of faces: {most:?}"));
     }
     compare_layers(device, &scene, &plan)
 }

@@ -1,6 +1,7 @@
 //! Depth intervals of lens volumes by independent routes, and the layers they cut a ray into.
 
 mod agreement;
+mod boxes;
 mod camera;
 mod compound;
 mod edges;

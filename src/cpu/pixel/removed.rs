@@ -1,6 +1,6 @@
 //! What is not seen because a lens takes it away, for `explain`.
 
-use super::{MovedLayers, Reach, ShearedRay, Tracer};
+use super::{MovedLayers, ShearedRay, Tracer};
 use crate::lens::RayLayers;
 use crate::pixel::{Fragment, Removed};
 use crate::plan::Region;
@@ -10,20 +10,19 @@ impl Tracer<'_> {
     ///
     /// Looks at every triangle: this is for one ray, and rendering must not pay for it.
     pub fn removed(&self, x: f64, y: f64, ranks: &[usize], before: f32) -> Vec<Removed> {
-        let (ray, _) = self.rays(x, y);
         let view = &self.plan.view;
+        let ray = view.ray(x, y);
         let mut layers = RayLayers::default();
         layers.find(ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume)), &ray, view.near, view.far);
-        let Reach { start, scale } = self.reach;
         let (origin, direction) = self.traced(&ray);
         let sheared = ShearedRay::new(origin, direction);
         let mut moved = MovedLayers::default();
         let mut removed = Vec::new();
         for triangle in self.geometry.iter().flat_map(|geometry| &geometry.triangles) {
             let Some(hit) = sheared.hit(&triangle.corners) else { continue };
-            let depth = (f64::from(hit.t) / scale + start) as f32;
+            let depth = self.depth(hit.t);
             let in_view = depth >= view.near as f32 && depth < before.min(view.far as f32);
-            if !in_view || self.is_culled(triangle, direction) {
+            if !in_view || self.is_culled(triangle, &ray) {
                 continue;
             }
             let verdict = self.verdict(&ray, triangle.instance, depth, &layers, &mut moved);

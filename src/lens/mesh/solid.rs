@@ -8,7 +8,7 @@ use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 
 use super::line::ShearedLine;
 use super::nearest::nearest_on_triangle;
-use crate::lens::{Crossing, Span};
+use crate::lens::{Crossing, Plane, Span};
 
 /// A closed triangle mesh in the cube from -1 to 1. A point is inside where a line from it crosses the surface an odd
 /// number of times, so that triangles may be turned either way and hollows may be meshed in any order.
@@ -18,6 +18,8 @@ pub struct MeshSolid {
     /// In the order of the leaves of `nodes`.
     pub triangles: Vec<[u32; 3]>,
     pub nodes: Vec<MeshNode>,
+    /// It is known to be its own convex hull.
+    pub is_convex: bool,
 }
 
 /// A node of the bounding volume hierarchy. They stand in depth-first order: the first child follows its parent, and
@@ -55,7 +57,8 @@ impl MeshSolid {
             Bounds(obvhs::aabb::Aabb { min: Vec3A::from(min), max: Vec3A::from(max) })
         };
         let boxes: Vec<Bounds> = triangles.iter().map(bounds).collect();
-        let mut solid = Self { vertices, triangles: Vec::with_capacity(triangles.len()), nodes: Vec::new() };
+        let mut solid =
+            Self { vertices, triangles: Vec::with_capacity(triangles.len()), nodes: Vec::new(), is_convex: false };
         if !boxes.is_empty() {
             let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
             solid.flatten(&bvh, 0, triangles);
@@ -138,6 +141,16 @@ impl MeshSolid {
             },
         );
         best.get().1
+    }
+
+    /// The planes of its triangles, if it is convex; `None` in place of one without an area.
+    pub fn planes(&self) -> impl Iterator<Item = Option<Plane>> + '_ {
+        let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len().max(1) as f64;
+        (0..self.triangles.len() as u32).map(move |face| {
+            let (normal, corner) = (self.normal(face), self.corners(face)[0]);
+            let outward = if normal.dot(corner - middle) < 0.0 { -normal } else { normal };
+            (normal.length() > 0.0).then(|| Plane::through(outward, corner))
+        })
     }
 
     /// A normal of a triangle, of any length, on the side from which its corners run anticlockwise.

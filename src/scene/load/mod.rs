@@ -23,7 +23,7 @@ use std::path::Path;
 
 use gltf::json;
 
-use super::Model;
+use super::{BoundsCache, Model};
 use crate::InputError;
 use crate::spec::SceneChoice;
 
@@ -106,6 +106,7 @@ impl Model {
             scene,
             extensions,
             warnings: Vec::new(),
+            bounds_cache: BoundsCache::default(),
         };
         model.pose(None)?;
         model.images = image::load(&file, &model.used_images(), fetch)?;

@@ -1,0 +1,100 @@
+//! Tight bounds of nodes, found once for each place where a node has stood last.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use glam::DAffine3;
+
+use super::{Aabb, Model, Primitive};
+
+/// World bounds of the primitives of one node.
+type OfNode = Arc<Vec<Aabb>>;
+
+/// What [`Model::node_bounds`] remembers: a plan of a scene of millions of triangles must not look at each of them again.
+/// Poses are seen to by themselves; where a mesh itself changes, a new cache must take the place of this.
+#[derive(Debug, Default)]
+pub struct BoundsCache(Mutex<Vec<Option<(DAffine3, OfNode)>>>);
+
+impl Clone for BoundsCache {
+    /// An empty one: the other model may be changed.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl Model {
+    /// Tight world bounds of each primitive of the node's own mesh.
+    pub fn primitive_bounds(&self, index: usize) -> OfNode {
+        let node = &self.nodes[index];
+        let mut known = self.bounds_cache.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let length = self.nodes.len().max(known.len());
+        known.resize(length, None);
+        if let Some((place, bounds)) = &known[index]
+            && *place == node.world_from_local
+        {
+            return bounds.clone();
+        }
+        let primitives = node.mesh.map_or(&[][..], |mesh| &self.meshes[mesh].primitives);
+        let bounds = Arc::new(primitives.iter().map(|primitive| primitive.bounds(&node.world_from_local)).collect());
+        known[index] = Some((node.world_from_local, Arc::clone(&bounds)));
+        bounds
+    }
+
+    /// Tight world bounds of the node's own mesh; empty without triangles.
+    pub fn node_bounds(&self, node: usize) -> Aabb {
+        self.primitive_bounds(node).iter().copied().fold(Aabb::EMPTY, Aabb::union)
+    }
+
+    /// Tight world bounds of what the chosen scene draws.
+    pub fn bounds(&self) -> Aabb {
+        (0..self.nodes.len()).filter(|i| self.nodes[*i].drawn).fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
+    }
+}
+
+impl Primitive {
+    /// Tight bounds of the vertices that triangles use, after `to_from`.
+    fn bounds(&self, to_from: &DAffine3) -> Aabb {
+        let mut used = vec![false; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|i| used[*i as usize] = true);
+        let positions = self.positions.iter().zip(used).filter(|(_, used)| *used);
+        Aabb::from_points(positions.map(|(p, _)| to_from.transform_point3(p.as_dvec3())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+
+    use super::*;
+    use crate::scene::{Mesh, Node, Transform};
+
+    fn model() -> Model {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(9.0)];
+        let primitive = Primitive { positions, triangles: vec![[0, 1, 2]], ..Primitive::default() };
+        let node = Node {
+            name: "node".into(),
+            parent: None,
+            children: Vec::new(),
+            rest: Transform::IDENTITY,
+            world_from_local: DAffine3::IDENTITY,
+            mesh: Some(0),
+            camera: None,
+            light: None,
+            drawn: true,
+        };
+        let meshes = vec![Mesh { name: "mesh".into(), primitives: vec![primitive] }];
+        Model { nodes: vec![node], meshes, ..Model::default() }
+    }
+
+    #[test]
+    fn bounds_follow_a_node_and_are_not_found_twice() {
+        let mut model = model();
+        let first = model.primitive_bounds(0);
+        assert_eq!(model.bounds(), Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 0.0) });
+        assert!(Arc::ptr_eq(&first, &model.primitive_bounds(0)));
+        model.nodes[0].world_from_local.translation = DVec3::Z;
+        assert_eq!(model.bounds(), Aabb { min: DVec3::Z, max: DVec3::ONE });
+        let mut other = model.clone();
+        other.meshes[0].primitives[0].positions[1] = Vec3::X * 2.0;
+        assert_eq!(other.bounds().max.x, 2.0);
+    }
+}
