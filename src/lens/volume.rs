@@ -1,5 +1,7 @@
 //! A lens volume: solids put together.
 
+use std::cell::RefCell;
+
 use glam::DVec3;
 
 use super::tree::Algebra;
@@ -37,6 +39,18 @@ pub struct Boundary {
     pub enters: bool,
 }
 
+/// What a ray meets of the parts of a compound: kept from ray to ray, since a picture asks for millions.
+#[derive(Default)]
+struct Buffers {
+    inside: Vec<bool>,
+    crossings: Vec<Boundary>,
+    spans: Vec<Span>,
+}
+
+thread_local! {
+    static BUFFERS: RefCell<Buffers> = RefCell::default();
+}
+
 impl Boundary {
     /// The ends of a span that lie strictly between two planes, as boundaries of its part alone.
     fn ends(part: usize, span: Span, near: f64, far: f64) -> impl Iterator<Item = Boundary> {
@@ -70,45 +84,55 @@ impl Volume {
             out.extend(span.map(|span| Interval { entry: span.entry.t.max(near), exit: span.exit.t.min(far) }));
             return;
         }
-        let mut boundaries = Vec::new();
-        let mut entry = self.boundaries(ray, near, far, &mut boundaries).then_some(near);
-        for boundary in boundaries {
-            match entry.take() {
-                Some(entry) => out.push(Interval { entry, exit: boundary.depth }),
-                None => entry = Some(boundary.depth),
+        let (mut entry, mut is_crossed) = (None, false);
+        let starts_inside = self.cross(ray, near, far, |boundary| {
+            is_crossed = true;
+            if boundary.enters {
+                entry = Some(boundary.depth);
+            } else {
+                // A ray that has not entered has been inside from the start.
+                out.push(Interval { entry: entry.take().unwrap_or(near), exit: boundary.depth });
             }
-        }
-        out.extend(entry.map(|entry| Interval { entry, exit: far }));
+        });
+        let rest = entry.or((starts_inside && !is_crossed).then_some(near));
+        out.extend(rest.map(|entry| Interval { entry, exit: far }));
     }
 
     /// Appends where a ray enters and leaves the volume strictly between near and far, nearest first; returns whether
     /// it is inside at the near plane.
     pub fn boundaries(&self, ray: &Ray, near: f64, far: f64, out: &mut Vec<Boundary>) -> bool {
+        self.cross(ray, near, far, |boundary| out.push(boundary))
+    }
+
+    /// The same, telling of one boundary after the other.
+    fn cross(&self, ray: &Ray, near: f64, far: f64, tell: impl FnMut(Boundary)) -> bool {
         if let Some((part, solid)) = self.lone() {
             let Some(span) = solid.span(ray).and_then(|span| span.between(near, far)) else { return false };
-            out.extend(Boundary::ends(part, span, near, far));
+            Boundary::ends(part, span, near, far).for_each(tell);
             return span.entry.t <= near;
         }
-        let mut inside = vec![false; self.parts.len()];
-        let mut crossings: Vec<Boundary> = Vec::new();
-        let mut spans = Vec::new();
-        for (part, solid) in self.parts.iter().enumerate() {
-            spans.clear();
-            solid.spans(ray, &mut spans);
-            for span in spans.iter().filter_map(|span| span.between(near, far)) {
-                inside[part] |= span.entry.t <= near;
-                crossings.extend(Boundary::ends(part, span, near, far));
+        BUFFERS.with_borrow_mut(|Buffers { inside, crossings, spans }| {
+            inside.clear();
+            inside.resize(self.parts.len(), false);
+            crossings.clear();
+            for (part, solid) in self.parts.iter().enumerate() {
+                spans.clear();
+                solid.spans(ray, spans);
+                for span in spans.iter().filter_map(|span| span.between(near, far)) {
+                    inside[part] |= span.entry.t <= near;
+                    crossings.extend(Boundary::ends(part, span, near, far));
+                }
             }
-        }
-        crossings.sort_by(|a, b| a.depth.total_cmp(&b.depth));
-        let starts_inside = self.tree.holds(&|part| inside[part]);
-        self.changes(&crossings, &mut inside, out);
-        starts_inside
+            crossings.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+            let starts_inside = self.tree.holds(&|part| inside[part]);
+            self.changes(crossings, inside, tell);
+            starts_inside
+        })
     }
 
     /// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several
     /// parts change; it is one of the volume where the whole then holds and did not, or the other way round.
-    fn changes(&self, crossings: &[Boundary], inside: &mut [bool], out: &mut Vec<Boundary>) {
+    fn changes(&self, crossings: &[Boundary], inside: &mut [bool], mut tell: impl FnMut(Boundary)) {
         let mut held = self.tree.holds(&|part| inside[part]);
         let mut rest = crossings;
         while let Some(first) = rest.first() {
@@ -123,7 +147,7 @@ impl Volume {
                 }
             }
             if let Some(crossing) = changed.filter(|_| holds != held) {
-                out.push(Boundary { depth: first.depth, enters: holds, ..*crossing });
+                tell(Boundary { depth: first.depth, enters: holds, ..*crossing });
             }
             held = holds;
             rest = &rest[merged..];

@@ -102,30 +102,45 @@ impl MeshSolid {
         self.triangles[face as usize].map(|i| self.vertices[i as usize])
     }
 
-    /// Every crossing of the whole line, in no order.
-    fn crossings(&self, origin: DVec3, direction: DVec3) -> Vec<Crossing> {
+    /// Tells of every crossing of the whole line, in no order.
+    fn cross(&self, origin: DVec3, direction: DVec3, mut tell: impl FnMut(Crossing)) {
         // Measured from the point of the line nearest to the middle, so that a far origin costs no precision.
         let shift = -origin.dot(direction) / direction.length_squared();
         let origin = origin + direction * shift;
         let line = ShearedLine::new(origin, direction);
-        let mut found = Vec::new();
         self.visit(
             |node| node.is_met(origin, direction),
-            |face, corners| found.extend(line.crossing(corners).map(|t| Crossing { t: t + shift, face })),
+            |face, corners| {
+                if let Some(t) = line.crossing(corners) {
+                    tell(Crossing { t: t + shift, face });
+                }
+            },
         );
-        found
     }
 
     /// Appends what a line has inside, nearest first.
     pub fn spans(&self, origin: DVec3, direction: DVec3, out: &mut Vec<Span>) {
-        let mut crossings = self.crossings(origin, direction);
-        crossings.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
-        let spans = crossings.chunks_exact(2).map(|pair| Span { entry: pair[0], exit: pair[1] });
-        out.extend(spans.filter(|span| span.exit.t > span.entry.t));
+        let first = out.len();
+        // Crossings first, each as a span without a length, then pairs of them in their place.
+        self.cross(origin, direction, |crossing| out.push(Span { entry: crossing, exit: crossing }));
+        out[first..].sort_unstable_by(|a, b| a.entry.t.total_cmp(&b.entry.t).then(a.entry.face.cmp(&b.entry.face)));
+        let mut end = first;
+        for pair in 0..(out.len() - first) / 2 {
+            let span = Span { entry: out[first + 2 * pair].entry, exit: out[first + 2 * pair + 1].entry };
+            if span.exit.t > span.entry.t {
+                out[end] = span;
+                end += 1;
+            }
+        }
+        out.truncate(end);
     }
 
     pub fn contains(&self, p: DVec3) -> bool {
-        p.abs().max_element() <= 1.0 && self.crossings(p, ANYWHERE).iter().filter(|c| c.t > 0.0).count() % 2 == 1
+        let mut inside = false;
+        if p.abs().max_element() <= 1.0 {
+            self.cross(p, ANYWHERE, |crossing| inside ^= crossing.t > 0.0);
+        }
+        inside
     }
 
     /// The point of the surface nearest to `p`.
