@@ -296,7 +296,7 @@ fn tile_in_order(index: u32) -> u32 {
     return tiles[4u * tile_columns() * tile_rows() + index];
 }
 
-// Words of a part of a tile; twin of `tiles::PART_WORDS`.
+// Words of a part of a tile; twin of `tiles::PART_WORDS_OF_TILE`.
 const PART_WORDS_OF_TILE: u32 = 3u;
 
 // A part of a lens as a ray asks it.

@@ -106,9 +106,9 @@ fn span_around(part: u32, ray: LensRay, depth: f32) -> Span {
 // Goes from crossing to crossing, at one depth in the order of the parts, until the lens has changed.
 fn compound_glass(rank: u32, key: u32, ray: LensRay, depth: f32) -> GlassHit {
     let merge = MERGE * abs(depth);
-    // Rounding may differ between passes; another lens may have drawn the boundary nearer by one merge, and another part
+    // Rounding differs between passes, and between a mesh's triangles in space and in the picture; another lens may have drawn the boundary nearer by one merge, and another part
     // of this one by one more.
-    var reached = depth - 0.1 * merge;
+    var reached = depth - 0.5 * merge;
     let last = depth + 2.0 * merge;
     var hit = no_glass(depth, key);
     var number = NONE;

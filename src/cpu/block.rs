@@ -124,9 +124,9 @@ impl Camera {
         Beam { normals: [column(0), column(1), column(2)], offset: offset + offset.abs() * ROUNDING, forward }
     }
 
-    /// The parameter of a ray at a depth of the space of the geometry.
+    /// No more than the parameter of a ray at a depth of the space of the geometry.
     fn parameter(&self, depth: f32) -> f32 {
-        depth - self.start
+        depth - self.start - ROUNDING * self.start.abs()
     }
 }
 

@@ -123,12 +123,10 @@ impl<'a> Tracer<'a> {
                 if depth < near || depth > far || self.is_culled(triangle, &one.ray) {
                     return None;
                 }
-                let altered_by = &self.altered_by[triangle.instance as usize];
-                let is_plain = altered_by.is_some_and(|altering| (altering & lenses).is_empty());
                 let Triangle { instance, index, .. } = *triangle;
                 let mut fragment =
                     Fragment { instance, triangle: index, depth, weights: hit.weights, region: Region::PLAIN };
-                if !is_plain {
+                if !self.is_plain(instance, lenses) {
                     let verdict = self.verdict(&one.ray, instance, depth, &one.layers, &mut one.moved);
                     if !verdict.displayed {
                         return None;
@@ -146,7 +144,7 @@ impl<'a> Tracer<'a> {
                 })
             });
         }
-        self.finish(block, rays, listed);
+        self.finish(&mut rays[..block.len()], lenses, listed);
     }
 
     /// Cuts a ray into layers.
@@ -160,10 +158,15 @@ impl<'a> Tracer<'a> {
         one.layers.find(volumes, &one.ray, view.near, view.far);
     }
 
-    /// Says who acts on opaque fragments, and leaves of the others those that can be seen, in order.
-    fn finish(&self, block: &Block, rays: &mut [OneRay], listed: &mut Vec<(u32, Fragment)>) {
-        for one in &mut rays[..block.len()] {
-            if let Some(fragment) = &mut one.opaque {
+    /// Whether all of an instance is there and opaque where no other lenses and rules may act.
+    fn is_plain(&self, instance: u32, lenses: LensSet) -> bool {
+        self.altered_by[instance as usize].is_some_and(|altering| (altering & lenses).is_empty())
+    }
+
+    /// Says who acts on the opaque fragments that did not ask, and leaves of the others those that can be seen, in order.
+    fn finish(&self, rays: &mut [OneRay], lenses: LensSet, listed: &mut Vec<(u32, Fragment)>) {
+        for one in rays.iter_mut() {
+            if let Some(fragment) = one.opaque.as_mut().filter(|fragment| self.is_plain(fragment.instance, lenses)) {
                 let verdict = self.verdict(&one.ray, fragment.instance, fragment.depth, &one.layers, &mut one.moved);
                 fragment.region = Region { set: verdict.set, stack: verdict.stack };
             }

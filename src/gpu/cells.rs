@@ -88,7 +88,8 @@ pub struct ProjectedMesh {
 
 impl Cells {
     /// Those of a part with planes or triangles, within the pixels of the window that it covers. `None` where every ray
-    /// asks all faces: of flat parts, which are open to the far side, and where the part is not all before the eye.
+    /// asks all faces: of flat parts, which are open to the far side, and where a part does not all lie behind the near
+    /// plane of a perspective camera, or reaches very far out of the picture.
     pub fn new(view: &View, window: &Window, solid: &Solid, rect: &PixelRect) -> Option<Self> {
         let faces = Projected::new(view, window, solid)?;
         let tiles = |axis: usize| (rect.max[axis].div_ceil(TILE) - rect.min[axis] / TILE) as usize;
@@ -149,7 +150,9 @@ impl Cells {
 
 impl ProjectedMesh {
     fn new(faces: &Projected, triangles: &[[u32; 3]], perspective: bool, window: &Window) -> Self {
-        let [low, high] = bounds(&faces.points);
+        // In the middle of what is seen: numbers stay small where pixels are, however far off corners lie.
+        let size = DVec2::from_array(window.size.map(f64::from));
+        let [low, high] = bounds(&faces.points).map(|p| p.clamp(DVec2::ZERO, size));
         let origin = (0.5 * (low + high)).round();
         let vectors = triangles.par_iter().map(|corners| {
             let points = corners.map(|i| faces.points[i as usize] - origin);
@@ -161,13 +164,15 @@ impl ProjectedMesh {
             let area = b.perp_dot(c);
             let slope = if area == 0.0 { DVec2::ZERO } else { (c.perp() * -rise_b + b.perp() * rise_c) / area };
             let sides = [0, 1, 2].map(|i| side(corners, &points, i));
+            // From the deepest corner, where the inverse is least: nothing cancels.
+            let from = (0..3).fold(0, |from, i| if depths[i] > depths[from] { i } else { from });
             let [least, most] = [f64::min, f64::max].map(|pick| depths.into_iter().reduce(pick).unwrap_or_default());
             let vector = |v: DVec2, z: f64, w: f64| [v.x, v.y, z, w].map(|x| x.clamp(-1e30, 1e30) as f32);
             [
-                vector(sides[0].0, sides[0].1, points[0].x),
-                vector(sides[1].0, sides[1].1, points[0].y),
+                vector(sides[0].0, sides[0].1, points[from].x),
+                vector(sides[1].0, sides[1].1, points[from].y),
                 vector(sides[2].0, sides[2].1, least),
-                vector(slope, counted[0], most),
+                vector(slope, counted[from], most),
             ]
         });
         let place = origin + DVec2::from_array(window.min.map(f64::from));

@@ -42,13 +42,13 @@ impl Clustered {
         drop(boxes);
         let mut clusters = Vec::new();
         order.clear();
-        for node in roots(&bvh) {
-            let first = order.len();
-            leaves(&bvh, node, &mut order);
-            // At one depth the lower number is in front, and what is drawn first.
-            order[first..].sort_unstable();
-            let own = &order[first..];
-            clusters.push(Cluster { first: first as u32, count: own.len() as u32, bounds: bounds(primitive, own) });
+        // At one depth the lower number is in front, and what is drawn first.
+        let mut lists: Vec<Vec<u32>> = roots(&bvh).into_iter().map(|node| leaves(&bvh, node)).collect();
+        lists.sort_unstable_by_key(|list| list[0]);
+        for own in lists {
+            let first = order.len() as u32;
+            clusters.push(Cluster { first, count: own.len() as u32, bounds: bounds(primitive, &own) });
+            order.extend(own);
         }
         Self { order, clusters }
     }
@@ -59,7 +59,7 @@ fn bounds(primitive: &Primitive, triangles: &[u32]) -> Aabb {
     Aabb::from_points(corners.map(|corner| primitive.positions[corner as usize].as_dvec3()))
 }
 
-/// The largest subtrees without too many triangles, neighbours after each other.
+/// The largest subtrees without too many triangles.
 fn roots(bvh: &Bvh2) -> Vec<u32> {
     let mut counts = vec![0u32; bvh.nodes.len()];
     // Children before their parents.
@@ -84,9 +84,9 @@ fn roots(bvh: &Bvh2) -> Vec<u32> {
     found
 }
 
-/// Appends the triangles below a node.
-fn leaves(bvh: &Bvh2, root: u32, out: &mut Vec<u32>) {
-    let mut rest = vec![root];
+/// The triangles below a node, in their old order.
+fn leaves(bvh: &Bvh2, root: u32) -> Vec<u32> {
+    let (mut out, mut rest) = (Vec::new(), vec![root]);
     while let Some(node) = rest.pop() {
         let own = &bvh.nodes[node as usize];
         if own.is_leaf() {
@@ -95,6 +95,8 @@ fn leaves(bvh: &Bvh2, root: u32, out: &mut Vec<u32>) {
         }
         rest.extend(children(bvh, node));
     }
+    out.sort_unstable();
+    out
 }
 
 fn children(bvh: &Bvh2, node: u32) -> impl Iterator<Item = u32> + use<> {

@@ -97,7 +97,8 @@ pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, 
                 _ => draws.push(draw),
             }
         }
-        // Two pipelines an instance rather than two a run: triangles at one depth stand in one cluster.
+        // Two pipelines an instance rather than two a run. Triangles that lie on each other stand in one cluster, so that
+        // this decides no tie between them; between others in one plane rounding does.
         draws[first_draw..].sort_by_key(|draw| !draw.plain);
     }
     draws
@@ -194,10 +195,11 @@ impl<'a> Lenses<'a> {
     }
 }
 
-/// How far boundaries that merge, and drawn depths, may be off around bounds: such a share of the depth.
+/// How far boundaries that merge, and drawn depths, may be off around bounds: such a share of the depth, along the ray
+/// that is longest for its depth.
 fn margin(view: &View, bounds: &Aabb) -> f64 {
     let depths = bounds.corners().map(|p| view.depth(p).abs());
-    2e-5 * depths.into_iter().fold(view.far.abs(), f64::max)
+    4e-5 * view.ray(0.0, 0.0).direction.length() * depths.into_iter().fold(view.far.abs(), f64::max)
 }
 
 fn padded(view: &View, bounds: &Aabb) -> Aabb {

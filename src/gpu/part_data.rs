@@ -150,7 +150,7 @@ impl PartData {
         for plane in planes {
             record.plane_count += 1;
             let Some(plane) = plane else {
-                self.vectors.extend([[0.0; 4]; 2]);
+                self.vectors.extend([[0.0; 4], [0.0, 0.0, 0.0, 1e37]]);
                 continue;
             };
             self.vectors.push(frame.ray.plane(&plane, frame.perspective));

@@ -11,8 +11,8 @@ pub const TILE: u32 = 16;
 /// Workgroups in a row of the layer pass; `DISPATCH_WIDTH` of the shaders.
 pub const DISPATCH_WIDTH: u32 = 1024;
 
-/// Words of a part of a tile; `PART_WORDS_OF_TILE` of the shaders.
-const PART_WORDS: u32 = 3;
+/// Words of a part of a tile; the same name in the shaders.
+const PART_WORDS_OF_TILE: u32 = 3;
 
 /// The tiles of a window as the shaders read them.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,7 +107,7 @@ impl Tiles {
             most_layers = most_layers.max(boundaries + 1);
             words.extend([layer_words as u32, stride, next_part, count]);
             layer_words += u64::from(stride) * u64::from(TILE * TILE);
-            next_part += PART_WORDS * count;
+            next_part += PART_WORDS_OF_TILE * count;
         }
         words.extend(active.iter().chain(&rest));
         let mut tables = Vec::new();

@@ -4,15 +4,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DAffine3;
 
-use super::{Aabb, Model, Primitive};
+use super::{Aabb, Model, Node, Primitive};
 
-/// World bounds of the primitives of one node.
-type OfNode = Arc<Vec<Aabb>>;
+/// World bounds of the primitives of one node, where it stood last.
+#[derive(Debug, Clone)]
+struct Known {
+    world_from_local: DAffine3,
+    mesh: Option<usize>,
+    bounds: Arc<Vec<Aabb>>,
+}
 
 /// What [`Model::node_bounds`] remembers: a plan of a scene of millions of triangles must not look at each of them again.
 /// Poses are seen to by themselves; where a mesh itself changes, a new cache must take the place of this.
 #[derive(Debug, Default)]
-pub struct BoundsCache(Mutex<Vec<Option<(DAffine3, OfNode)>>>);
+pub struct BoundsCache(Mutex<Vec<Option<Known>>>);
 
 impl Clone for BoundsCache {
     /// An empty one: the other model may be changed.
@@ -23,19 +28,20 @@ impl Clone for BoundsCache {
 
 impl Model {
     /// Tight world bounds of each primitive of the node's own mesh.
-    pub fn primitive_bounds(&self, index: usize) -> OfNode {
+    pub fn primitive_bounds(&self, index: usize) -> Arc<Vec<Aabb>> {
         let node = &self.nodes[index];
         let mut known = self.bounds_cache.0.lock().unwrap_or_else(PoisonError::into_inner);
         let length = self.nodes.len().max(known.len());
         known.resize(length, None);
-        if let Some((place, bounds)) = &known[index]
-            && *place == node.world_from_local
+        if let Some(known) = &known[index]
+            && (known.world_from_local, known.mesh) == (node.world_from_local, node.mesh)
         {
-            return bounds.clone();
+            return Arc::clone(&known.bounds);
         }
         let primitives = node.mesh.map_or(&[][..], |mesh| &self.meshes[mesh].primitives);
         let bounds = Arc::new(primitives.iter().map(|primitive| primitive.bounds(&node.world_from_local)).collect());
-        known[index] = Some((node.world_from_local, Arc::clone(&bounds)));
+        let Node { world_from_local, mesh, .. } = *node;
+        known[index] = Some(Known { world_from_local, mesh, bounds: Arc::clone(&bounds) });
         bounds
     }
 
@@ -65,7 +71,7 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::scene::{Mesh, Node, Transform};
+    use crate::scene::{Mesh, Transform};
 
     fn model() -> Model {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(9.0)];

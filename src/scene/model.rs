@@ -28,6 +28,7 @@ pub struct Model {
     pub extensions: Vec<String>,
     /// What was left out or repaired, one line each, with the object named.
     pub warnings: Vec<String>,
+    /// To be replaced with an empty one where a mesh is changed in place.
     pub bounds_cache: BoundsCache,
 }
 

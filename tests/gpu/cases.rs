@@ -68,7 +68,7 @@ fn every_shape(device: &Headless, camera: &str) -> Result<(), String> {
 
 fn every_shape_text() -> String {
     let lens = |name: &str, rest: &str| format!("[[lens]]\nname = \"{name}\"\n{rest}\n");
-    // A hull with enough faces to be drawn as a depth map.
+    // A hull with so many faces that a cell lists few of them.
     let points: Vec<String> = (0..40)
         .map(|i| {
             let (turn, y) = (f64::from(i) * 2.4, f64::from(i) / 39.0 * 2.0 - 1.0);

@@ -37,6 +37,8 @@ pub struct MeshNode {
 
 /// Boxes are larger by this, so that rounding in the box test loses no triangle.
 const PADDING: f32 = 1e-6;
+/// Twice the area up to which a triangle makes no plane.
+const SLIVER: f64 = 4e-14;
 /// Runs along no symmetry that a mesh is likely to have.
 const ANYWHERE: DVec3 = DVec3::new(0.527_348, 0.331_907, 0.782_154);
 
@@ -158,13 +160,18 @@ impl MeshSolid {
         best.get().1
     }
 
-    /// The planes of its triangles, if it is convex; `None` in place of one without an area.
+    /// The planes of its triangles, if it is convex; `None` in place of one with hardly an area.
     pub fn planes(&self) -> impl Iterator<Item = Option<Plane>> + '_ {
         let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len().max(1) as f64;
         (0..self.triangles.len() as u32).map(move |face| {
             let (normal, corner) = (self.normal(face), self.corners(face)[0]);
             let outward = if normal.dot(corner - middle) < 0.0 { -normal } else { normal };
-            (normal.length() > 0.0).then(|| Plane::through(outward, corner))
+            // A sliver says little of its plane, which must cut nothing off. The mesh is about 2 long.
+            (normal.length() > SLIVER).then(|| {
+                let plane = Plane::through(outward, corner);
+                let offset = self.vertices.iter().map(|p| plane.normal.dot(*p)).fold(plane.offset, f64::max);
+                Plane { offset, ..plane }
+            })
         })
     }
 
