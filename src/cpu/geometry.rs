@@ -45,8 +45,8 @@ impl obvhs::Boundable for Triangle {
 
 /// Where rays start, and the scale at which they are traced.
 ///
-/// obvhs takes everything nearer than 1e-4 for behind the ray, in whatever units. A power of two changes no digit of
-/// a coordinate, so scenes of any size are traced as if the near plane were far enough.
+/// Scenes of any size are traced as if the near plane were not very near, away from the least numbers that f32 has; a
+/// power of two changes no digit of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
     /// Depth at which rays start: the eye, or some way before the near plane of an orthographic camera.
@@ -54,7 +54,7 @@ pub struct Reach {
     pub scale: f64,
 }
 
-/// Ten times what obvhs takes for behind the ray.
+/// Where the near plane is at least.
 const NEAREST: f64 = 1e-3;
 
 impl Reach {

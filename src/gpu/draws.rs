@@ -70,13 +70,14 @@ pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, 
         let item = &plan.items[instance.item];
         let (range, clusters) = uploaded.primitive(item);
         let shown_from_local = shown_from_local(scene, item, instance);
+        let altering = plan.altering(item);
         for cluster in clusters {
             let bounds = shown_bounds(instance, &shown_from_local, cluster, clusters.len());
             let rect = window.local(&lenses.seen_rect(instance, item, &bounds));
             if bounds.is_empty() || rect.is_empty() {
                 continue;
             }
-            let fate = lenses.fate(instance, &bounds);
+            let fate = lenses.fate(instance, &altering, &bounds);
             if fate == Fate::Gone && skip == Skip::WhatIsGone {
                 continue;
             }
@@ -125,6 +126,8 @@ struct Lenses<'a> {
     plan: &'a Plan,
     /// Of each lens that tests every fragment, in the world; the others may act anywhere.
     bounds: Vec<Aabb>,
+    /// Lenses and rules that may make something less than opaque.
+    translucent: LensSet,
 }
 
 impl<'a> Lenses<'a> {
@@ -132,7 +135,8 @@ impl<'a> Lenses<'a> {
         let bounds = |(rank, lens): (usize, &Lens)| {
             if plan.by_pixel.contains(rank) { lens.volume.bounds() } else { Aabb::EVERYWHERE }
         };
-        Self { plan, bounds: plan.lenses.iter().enumerate().map(bounds).collect() }
+        let bounds = plan.lenses.iter().enumerate().map(bounds).collect();
+        Self { plan, bounds, translucent: plan.translucent() }
     }
 
     /// Whether a lens or rule may act within bounds.
@@ -160,7 +164,8 @@ impl<'a> Lenses<'a> {
         }
     }
 
-    fn fate(&self, instance: &Instance, bounds: &Aabb) -> Fate {
+    /// `altering`: of its item, see [`Plan::altering`].
+    fn fate(&self, instance: &Instance, altering: &LensSet, bounds: &Aabb) -> Fate {
         let (plan, item) = (self.plan, &self.plan.items[instance.item]);
         if instance.is_moved() {
             return Fate::Asked;
@@ -168,14 +173,14 @@ impl<'a> Lenses<'a> {
         let around = padded(&plan.view, bounds);
         let far = bounds.corners().map(|p| plan.view.depth(p)).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let may_be_plain = !item.translucent && far <= plan.view.far - margin(&plan.view, bounds);
-        if !item.is_alternate() && !plan.altering(item).iter().any(|rank| self.reaches(rank, &around)) {
+        if !item.is_alternate() && !altering.iter().any(|rank| self.reaches(rank, &around)) {
             return if may_be_plain { Fate::Plain } else { Fate::Asked };
         }
         let Some(holding) = self.holding(item, &around) else { return Fate::Asked };
         let verdict = plan.walk(instance, |_| holding);
         match verdict.displayed {
             false => Fate::Gone,
-            true if may_be_plain && (verdict.stack & plan.translucent()).is_empty() => Fate::Plain,
+            true if may_be_plain && (verdict.stack & self.translucent).is_empty() => Fate::Plain,
             true => Fate::Asked,
         }
     }
