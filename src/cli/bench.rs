@@ -5,7 +5,9 @@ use serde_json::json;
 use super::args::BenchArgs;
 use crate::InputError;
 use crate::bench::{Case, Contender, Measured, Sample, Verdict, interleaved};
-use crate::gpu::{Engine, Error, Headless, LensStorage, RenderOptions, Renderer, STAGES, Timings, choose_named};
+use crate::gpu::{
+    Engine, Error, Headless, LensStorage, RenderOptions, Renderer, STAGES, Timings, Triangles, choose_named,
+};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::spec::Spec;
@@ -21,7 +23,14 @@ struct Account<'a> {
     adapter: &'a str,
     /// Whether stages are timed by the device itself.
     device_clock: bool,
+    contents: Contents,
+}
+
+/// What the frames took, what they drew, and what lenses kept on the device.
+struct Contents {
     measured: Vec<Measured>,
+    /// Of each of `measured`.
+    triangles: Vec<Triangles>,
     storage: LensStorage,
 }
 
@@ -36,10 +45,10 @@ pub fn run(args: &BenchArgs) -> Result<(), InputError> {
     let adapter = choose_named(None).map_err(no_frame)?;
     let device = Headless::new(&adapter).map_err(no_frame)?;
     eprintln!("gpu: {}", device.reason);
-    let (measured, storage) =
-        measure(&device, &scene, &plan, &without_lenses(&spec, &scene, &plan)?, args.frames).map_err(no_frame)?;
+    let bare = without_lenses(&spec, &scene, &plan)?;
+    let contents = measure(&device, &scene, &plan, &bare, args.frames).map_err(no_frame)?;
     let device_clock = device.has_timestamps();
-    let account = Account { spec: &spec, plan: &plan, adapter: &device.reason, device_clock, measured, storage };
+    let account = Account { spec: &spec, plan: &plan, adapter: &device.reason, device_clock, contents };
     if args.json {
         super::print_json(&account.json());
     } else {
@@ -61,20 +70,15 @@ fn without_lenses(spec: &Spec, scene: &Scene, plan: &Plan) -> Result<Plan, Input
     Ok(bare)
 }
 
-fn measure(
-    device: &Headless,
-    scene: &Scene,
-    plan: &Plan,
-    bare: &Plan,
-    frames: u32,
-) -> Result<(Vec<Measured>, LensStorage), Error> {
+fn measure(device: &Headless, scene: &Scene, plan: &Plan, bare: &Plan, frames: u32) -> Result<Contents, Error> {
     let mut renderer = device.renderer(scene)?;
     // Before any other frame, which might make room that this plan does not need.
     let fused = RenderOptions::default();
     device.render_with(&mut renderer, scene, plan, fused, &mut None)?;
     let storage = device.lens_storage(&mut renderer, scene, plan, fused)?;
     let renderer = std::cell::RefCell::new(renderer);
-    let contender = |name, plan, engine| {
+    let contestants = [(NO_LENS, bare, Engine::Fused), (FUSED, plan, Engine::Fused), (PEEL, plan, Engine::Peel)];
+    let contender = |(name, plan, engine)| {
         let (renderer, options) = (&renderer, RenderOptions { engine, aovs: false });
         let mut is_settled = false;
         Contender::new(name, move || {
@@ -86,15 +90,17 @@ fn measure(
             sample(device, &mut renderer, scene, plan, options)
         })
     };
-    let mut contenders = [
-        contender(NO_LENS, bare, Engine::Fused),
-        contender(FUSED, plan, Engine::Fused),
-        contender(PEEL, plan, Engine::Peel),
-    ];
+    let mut contenders = contestants.map(contender);
     let bar = super::stages::progress(u64::from(frames) + 1);
     let measured = interleaved(&mut contenders, frames as usize, |_| bar.inc(1))?;
     bar.finish_and_clear();
-    Ok((measured, storage))
+    drop(contenders);
+    let mut renderer = renderer.into_inner();
+    let triangles = contestants.map(|(_, plan, engine)| {
+        let options = RenderOptions { engine, aovs: false };
+        device.time_frame(&mut renderer, scene, plan, options, false).map(|cost| cost.triangles)
+    });
+    Ok(Contents { measured, triangles: triangles.into_iter().collect::<Result<_, _>>()?, storage })
 }
 
 /// One frame, and how long each of its stages took: on the device's clock where it has one, else in a second frame
@@ -125,7 +131,7 @@ impl Account<'_> {
     fn verdicts(&self) -> Vec<Verdict> {
         let case = |of: &str, to: &str| Case { name: format!("{of} / {to}"), of: of.into(), to: to.into(), bar: None };
         let cases = [case(FUSED, NO_LENS), case(PEEL, NO_LENS), case(PEEL, FUSED)];
-        cases.iter().filter_map(|case| Verdict::new(case, &self.measured)).collect()
+        cases.iter().filter_map(|case| Verdict::new(case, &self.contents.measured)).collect()
     }
 
     fn text(&self) -> String {
@@ -134,7 +140,7 @@ impl Account<'_> {
             true => "times are the device's own",
             false => "times are from submission to the end, those of the stages each waited for",
         };
-        let rounds = self.measured.first().map_or(0, |m| m.samples.len());
+        let rounds = self.contents.measured.first().map_or(0, |m| m.samples.len());
         let samples = self.plan.samples;
         let mut text = format!(
             "{}: {} enabled lenses, {width} x {height}, {samples} samples a pixel\nmedians of {rounds} interleaved frames each; {clock}\n\n",
@@ -142,23 +148,31 @@ impl Account<'_> {
             self.plan.lenses.len(),
         );
         let stages: Vec<&str> =
-            self.measured.first().map(Measured::stages).unwrap_or_default().iter().map(|s| s.0).collect();
+            self.contents.measured.first().map(Measured::stages).unwrap_or_default().iter().map(|s| s.0).collect();
         let heads: String = stages.iter().map(|stage| format!(" {stage:>12}")).collect();
         text += &format!("{:<8} {:>12} {:>8}{heads}\n", "", "milliseconds", "ratio");
-        for m in &self.measured {
-            let ratio = m.ratio_to(&self.measured[0]);
+        for m in &self.contents.measured {
+            let ratio = m.ratio_to(&self.contents.measured[0]);
             let parts: String = m.stages().iter().map(|(_, seconds)| format!(" {:>12.2}", 1e3 * seconds)).collect();
             text += &format!("{:<8} {:>12.2} {ratio:>8.2}{parts}\n", m.name, 1e3 * m.median());
         }
-        text += &format!("\nlenses keep {} on the device\n", bytes(self.storage.total()));
-        for (what, count) in self.storage.parts() {
+        for (m, Triangles { drawn, asking }) in self.contents.measured.iter().zip(&self.contents.triangles) {
+            let name = &m.name;
+            text +=
+                &format!("\n{name}: draws {drawn} triangles a sample; the fragments of {asking} ask for their lenses");
+        }
+        text += &format!("\n\nlenses keep {} on the device\n", bytes(self.contents.storage.total()));
+        for (what, count) in self.contents.storage.parts() {
             text += &format!("{what:>14} {:>12}\n", bytes(count));
         }
         text
     }
 
     fn json(&self) -> serde_json::Value {
-        let mut value = crate::bench::json(&self.verdicts(), &self.measured);
+        let mut value = crate::bench::json(&self.verdicts(), &self.contents.measured);
+        for (i, Triangles { drawn, asking }) in self.contents.triangles.iter().enumerate() {
+            value["frames"][i]["triangles"] = json!({ "drawn": drawn, "asking": asking });
+        }
         value["spec"] = json!(self.spec.source.name);
         value["adapter"] = json!(self.adapter);
         value["size"] = json!(self.plan.view.size);
@@ -166,8 +180,8 @@ impl Account<'_> {
         value["lenses"] = json!(self.plan.lenses.len());
         value["clock"] = json!(if self.device_clock { "device" } else { "wall" });
         let mut storage: serde_json::Map<String, serde_json::Value> =
-            self.storage.parts().iter().map(|(what, count)| (what.replace(' ', "_"), json!(count))).collect();
-        storage.insert("total".into(), json!(self.storage.total()));
+            self.contents.storage.parts().iter().map(|(what, count)| (what.replace(' ', "_"), json!(count))).collect();
+        storage.insert("total".into(), json!(self.contents.storage.total()));
         value["lens_storage"] = storage.into();
         value
     }

@@ -22,6 +22,16 @@ pub struct FrameCost {
     pub prepare: f64,
     /// On the device, of each of [`STAGES`], summed over samples; `None` where they were not asked for.
     pub stages: Option<[f64; STAGES.len()]>,
+    /// Triangles that were drawn for a sample, each as often as it was drawn.
+    pub triangles: Triangles,
+}
+
+/// How many triangles a frame draws.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Triangles {
+    pub drawn: u64,
+    /// Of those, the ones whose fragments ask which lenses act on them.
+    pub asking: u64,
 }
 
 /// Marks on the device's clock between stages.
@@ -64,6 +74,7 @@ impl Headless {
                 }
             };
             sum.prepare += start.elapsed().as_secs_f64();
+            sum.triangles.add(&job);
             let mut marks = stages.then(|| Marks::new(&self.device, job.samples.len()));
             let times = self.submit(&job, &view, marks.as_mut())?;
             sum.wall += start.elapsed().as_secs_f64();
@@ -101,6 +112,16 @@ impl Headless {
         self.queue.submit([encoder.finish()]);
         self.wait()?;
         Ok(times)
+    }
+}
+
+impl Triangles {
+    fn add(&mut self, job: &Job) {
+        for (draw, _) in &job.draws {
+            let count = u64::from(job.passes) * draw.indices.len() as u64 / 3;
+            self.drawn += count;
+            self.asking += if draw.plain { 0 } else { count };
+        }
     }
 }
 

@@ -36,7 +36,7 @@ mod upload;
 mod window;
 
 pub use caps::{AdapterChoice, adapters, choose_hardware, choose_named, describe, required_limits};
-pub use cost::{FrameCost, STAGES};
+pub use cost::{FrameCost, STAGES, Triangles};
 pub use error::Error;
 pub use headless::{Headless, Timings};
 pub use needs::Needs;

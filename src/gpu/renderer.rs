@@ -182,8 +182,21 @@ impl Renderer {
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
         let groups = self.groups(device, group, &targets, &needed, maps.as_ref());
-        let pipelines = self.store.get(needs.without_shading());
         let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
+        // Compiled side by side where they are new.
+        let (store, unshaded) = (&self.store, self.store.get(needs.without_shading()));
+        let ((draws, layers), (aov, (inside, outside))) = rayon::join(
+            || {
+                let program = program_of(options.engine, after.is_some());
+                let draws = self.draws(scene, plan, &window, skip, program, &unshaded);
+                (draws, cuts_layers.then(|| unshaded.layers(store)))
+            },
+            || {
+                let resolve = |needs| store.get(needs).resolve(store);
+                let aov = options.aovs.then(|| store.get(needs.for_accounts()).aov(store));
+                (aov, rayon::join(|| resolve(needs), || resolve(needs.outside(plan))))
+            },
+        );
         Ok(Job {
             needs,
             samples,
@@ -195,18 +208,12 @@ impl Renderer {
             passes,
             tiles,
             record_stride,
-            draws: self.draws(scene, plan, &window, skip, program_of(options.engine, after.is_some()), &pipelines),
+            draws,
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             items,
-            compute: ComputeSteps {
-                layers: cuts_layers.then(|| pipelines.layers(&self.store)),
-                aov: options.aovs.then(|| self.store.get(needs.for_accounts()).aov(&self.store)),
-            },
-            resolve: Resolve {
-                inside: self.store.get(needs).resolve(&self.store),
-                outside: self.store.get(needs.outside(plan)).resolve(&self.store),
-            },
+            compute: ComputeSteps { layers, aov },
+            resolve: Resolve { inside, outside },
             targets,
             groups,
         })

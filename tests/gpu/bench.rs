@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use lenspeel::gpu::{Engine, Headless, LensStorage, RenderOptions, STAGES};
+use lenspeel::gpu::{Engine, Headless, LensStorage, RenderOptions, STAGES, Triangles};
 use serde_json::Value;
 
 use crate::scene::{PERSPECTIVE, planned};
@@ -57,6 +57,35 @@ pub fn storage_grows_with_the_lenses(device: &Headless) -> Result<(), String> {
     Ok(())
 }
 
+/// What lenses take away is not drawn, what they do not reach asks none, and what they bring in is drawn where they are.
+pub fn what_is_drawn_is_what_may_be_seen(device: &Headless) -> Result<(), String> {
+    let drawn = |lenses: &str, engine| -> Result<Triangles, String> {
+        let (scene, plan) = planned(SIZE, 1, PERSPECTIVE, lenses);
+        let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
+        let options = RenderOptions { engine, aovs: false };
+        device.render_with(&mut renderer, &scene, &plan, options, &mut None).map_err(|e| e.to_string())?;
+        let cost = device.time_frame(&mut renderer, &scene, &plan, options, false).map_err(|e| e.to_string())?;
+        Ok(cost.triangles)
+    };
+    let lens = |shape: &str, filter: &str| {
+        format!("[[lens]]\nname = \"a\"\nglass = false\nshape.{shape}\nfilters = [{filter}]\n")
+    };
+    let half = "box = { min = [-2, -2, -2], max = [0, 2, 2] }";
+    let none = drawn("", Engine::Fused)?;
+    let panes = 2 * crate::scene::PANES as u64;
+    assert_eq!(none.asking, panes, "of a scene without lenses only what is translucent asks");
+    let inverted = drawn(&lens(half, "\"invert\""), Engine::Fused)?;
+    assert_eq!(inverted, none, "what changes colours alone is asked once a pixel");
+    let erased = drawn(&lens(half, "\"erase\""), Engine::Fused)?;
+    assert!(erased.drawn < none.drawn * 7 / 8 && erased.drawn > none.drawn / 4, "{erased:?} of {none:?}");
+    assert!(erased.asking > panes && erased.asking < erased.drawn, "clusters at the boundary ask: {erased:?}");
+    let small = drawn(&lens("sphere = { center = [0, 0, 0], radius = 0.1 }", "\"magnify\""), Engine::Fused)?;
+    assert!(small.drawn > none.drawn && small.drawn < none.drawn * 3 / 2, "a magnifier draws what it shows: {small:?}");
+    let peeled = drawn(&lens(half, "\"invert\""), Engine::Peel)?;
+    assert_eq!(peeled.drawn, 3 * none.drawn, "a pass for each of three layers");
+    Ok(())
+}
+
 fn program(arguments: &[&str]) -> Result<String, String> {
     let spec = concat!(env!("CARGO_MANIFEST_DIR"), "/lens-specs/overlap/three-spheres.toml");
     let mut command = Command::new(env!("CARGO_BIN_EXE_lenspeel"));
@@ -75,7 +104,13 @@ pub fn the_program_prints_a_table(_: &Headless) -> Result<(), String> {
         assert!(numbers.iter().all(|n| n.parse::<f64>().is_ok_and(|n| n >= 0.0)), "{out}");
         assert!(ratio.is_none_or(|ratio| numbers[1] == ratio), "{out}");
     }
-    for part in ["3 enabled lenses, 48 x 36", "medians of 3 interleaved frames each", "visibility", "lens records"] {
+    for part in [
+        "fused: draws ",
+        "3 enabled lenses, 48 x 36",
+        "medians of 3 interleaved frames each",
+        "visibility",
+        "lens records",
+    ] {
         assert!(out.contains(part), "{part}: {out}");
     }
     Ok(())
@@ -92,6 +127,8 @@ pub fn the_program_prints_json(device: &Headless) -> Result<(), String> {
         let mut rounds: Vec<f64> = serde_json::from_value(frame["rounds"].clone()).map_err(|e| e.to_string())?;
         rounds.sort_by(f64::total_cmp);
         assert_eq!((rounds.len(), frame["seconds"].as_f64()), (3, Some(rounds[1])), "{frame}");
+        assert!(frame["triangles"]["drawn"].as_u64().is_some_and(|drawn| drawn > 0), "{frame}");
+        assert!(frame["triangles"]["asking"].is_u64(), "{frame}");
         for stage in STAGES.iter().chain(&["upload", "whole frame"]) {
             assert!(frame["stages"][stage].as_f64().is_some_and(|s| s >= 0.0), "{stage}: {frame}");
         }

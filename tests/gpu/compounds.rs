@@ -61,6 +61,25 @@ pub fn pictures_of_compounds(device: &Headless) -> Result<(), String> {
     Ok(())
 }
 
+/// A mesh of many faces whose nearest corner lies before the eye at a small part of the mesh's size: its projection
+/// reaches far beyond the picture.
+pub fn meshes_that_nearly_touch_the_eye(device: &Headless) -> Result<(), String> {
+    let camera = "eye = [0, 0, 0]\ntarget = [0, 0, -1]\nfov_y = 70\nnear = 1e-6\nfar = 10";
+    let lens = "[[lens]]\nname = \"a\"\nshape.sphere = { center = [0, 0, -1], radius = 0.5 }\nfilters = [\"invert\"]\n";
+    for gap in [1e-3, 1e-4, 1e-5] {
+        for side in [0.0, 0.6] {
+            let (scene, mut plan) = planned(SIZE, 1, camera, lens);
+            let turned = DAffine3::from_rotation_y(side) * DAffine3::from_rotation_x(0.4);
+            let solid = torus_of(60, 24, turned);
+            let nearest = solid.hull.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+            let moved = DAffine3::from_translation(DVec3::new(0.0, 0.0, -gap - nearest));
+            replace(&mut plan, 0, of(torus_of(60, 24, moved * turned)));
+            compare_layers(device, &scene, &plan).map_err(|e| format!("gap {gap}, turned by {side}: {e}"))?;
+        }
+    }
+    Ok(())
+}
+
 /// A row of boxes in one mesh, seen from its end: more crossings than there is room for at first.
 pub fn crossings_that_overflow(device: &Headless) -> Result<(), String> {
     const BOXES: u32 = 7;
