@@ -4,6 +4,7 @@
 pub mod appearance;
 pub mod bench;
 pub mod cli;
+pub mod color_map;
 pub mod cpu;
 pub mod debug_view;
 mod error;

@@ -27,6 +27,10 @@ const LITTLE: Needs = Needs {
     vertex_colors: false,
     lights: 0,
     stages: [false; 3],
+    filters: 0,
+    quantities: false,
+    hidden_lines: false,
+    channels: 0,
 };
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const TWO_WORDS_OF_LAYERS: Needs = Needs { layers: true, ..TWO_WORDS };
@@ -46,6 +50,10 @@ const MOST: Needs = Needs {
     vertex_colors: true,
     lights: 3,
     stages: [true; 3],
+    filters: u64::MAX,
+    quantities: true,
+    hidden_lines: true,
+    channels: 3,
 };
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 20;
@@ -192,8 +200,10 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             after_depth,
             after_key,
             after_item,
+            eye,
             by_pixel,
-            translucent
+            translucent,
+            passed
         ]
     );
     assert_eq!(size("Frame"), size_of::<FrameRecord>());
@@ -222,8 +232,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             step_count,
         ]
     );
-    // Five masks of two words each follow, then padding to 16 bytes.
-    assert_eq!(size("Item"), (size_of::<ItemRecord>() + 5 * 2 * 4).next_multiple_of(16));
+    // Five masks of two words each follow, then a channel of two words, then padding to 16 bytes.
+    assert_eq!(size("Item"), (size_of::<ItemRecord>() + 5 * 2 * 4 + 2 * 4).next_multiple_of(16));
     same_layout!(&module, "Step", StepRecord, [row_x, row_y, row_z, rank]);
     assert_eq!(size("Step"), size_of::<StepRecord>());
     same_layout!(

@@ -9,6 +9,8 @@ struct PixelRay {
     origin_dy: vec3f,
     direction_dx: vec3f,
     direction_dy: vec3f,
+    // The point of the picture, in pixels from its top left corner.
+    pixel: vec2f,
 }
 
 struct TriangleHit {
@@ -48,6 +50,31 @@ fn edge_function(origin: vec3f, direction: vec3f, a: vec3f, b: vec3f) -> f32 {
 // Distance in pixels to the nearest edge of a triangle.
 fn wire_distance(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f) -> f32 {
     return min(edge_distance(ray, a, b), min(edge_distance(ray, b, c), edge_distance(ray, c, a)));
+}
+
+// Distance in pixels to the nearest corner of a triangle.
+fn corner_distance(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f) -> f32 {
+    return min(point_distance(ray, a), min(point_distance(ray, b), point_distance(ray, c)));
+}
+
+// Distance in pixels from a pixel to a point as the picture shows it; very far for one behind the eye.
+fn point_distance(ray: PixelRay, p: vec3f) -> f32 {
+    let perspective = dot(ray.direction_dx, ray.direction_dx) > 0.0;
+    let offset = p - ray.origin;
+    // A pixel's steps are at right angles to each other and to the forward axis.
+    var right = ray.origin_dx;
+    var down = ray.origin_dy;
+    var across = offset;
+    if perspective {
+        right = ray.direction_dx;
+        down = ray.direction_dy;
+        let depth = dot(offset, normalize(cross(right, down)));
+        if depth <= 0.0 {
+            return 1e9;
+        }
+        across = offset / depth - ray.direction;
+    }
+    return length(vec2f(dot(across, right) / dot(right, right), dot(across, down) / dot(down, down)));
 }
 
 // How many units of `uv` a pixel spans: the larger of its two sides, on the plane of the triangle.

@@ -4,36 +4,17 @@
 
 // One filter of a lens with its parameters; twin of `plan::Op`.
 struct Op {
+    // An OP_... constant: the build numbers the filters.
     kind: u32,
-    // Index into the filter textures, for OP_TEXTURE.
+    // Of the filter's image or colour map.
     texture: u32,
+    // Its own in the lowest byte, see `filters.wgsl` for the others.
     flags: u32,
     // Not 0: acts where a later filter of its lens moves content from.
     inner: u32,
     a: vec4f,
     b: vec4f,
     c: vec4f,
-}
-
-// Surface stage.
-const OP_OPACITY: u32 = 1u;
-const OP_UNLIT: u32 = 2u;
-const OP_MATERIAL: u32 = 3u;
-const OP_TEXTURE: u32 = 4u;
-const OP_NORMALS: u32 = 5u;
-// Colour stage.
-const OP_TINT: u32 = 16u;
-const OP_GRAYSCALE: u32 = 17u;
-const OP_INVERT: u32 = 18u;
-// Coverage stage.
-const OP_WIREFRAME: u32 = 32u;
-
-const STAGE_SURFACE: u32 = 0u;
-const STAGE_COLOR: u32 = 1u;
-const STAGE_COVERAGE: u32 = 2u;
-
-fn op_stage(kind: u32) -> u32 {
-    return kind / 16u;
 }
 
 const ALPHA_OPAQUE: u32 = 0u;
@@ -61,6 +42,13 @@ struct Surface {
     opacity: f32,
     // 0: lit; 1: shown in its base colour, without lighting; between where that fades in.
     unlit: f32,
+    // Where it is seen, in pixels from the top left corner of the picture.
+    pixel: vec2f,
+    // Steps of light, and how much they count.
+    toon: vec2f,
+    // Colour of pen strokes, and how much they count; how far apart they are, and how wide, in pixels.
+    hatch: vec4f,
+    hatch_lines: vec2f,
 }
 
 fn base_color(s: Surface) -> vec3f {
@@ -84,7 +72,15 @@ const OPAQUE_FROM: f32 = 0.9999;
 
 // What a stack makes of a surface before its colour filters act: lit, or its plain base colour.
 fn emitted(s: Surface, lit: vec3f) -> vec3f {
-    return mix(lit + s.emissive, base_color(s), s.unlit);
+    var color = lit;
+    if HAS_TOON && s.toon.y > 0.0 {
+        color = mix(lit, toon_light(lit, base_color(s), s.toon.x), s.toon.y);
+    }
+    color += s.emissive;
+    if HAS_HATCH && s.hatch.a > 0.0 {
+        color = mix(color, hatched(s, lit), s.hatch.a);
+    }
+    return mix(color, base_color(s), s.unlit);
 }
 
 // A filter's work on a surface, of which `amount` (0..1) counts: less than 1 near the boundary of a soft lens.
@@ -97,5 +93,7 @@ fn faded_surface(before: Surface, after: Surface, amount: f32) -> Surface {
     s.emissive = mix(before.emissive, after.emissive, amount);
     s.opacity = mix(before.opacity, after.opacity, amount);
     s.unlit = mix(before.unlit, after.unlit, amount);
+    s.toon.y = mix(before.toon.y, after.toon.y, amount);
+    s.hatch.a = mix(before.hatch.a, after.hatch.a, amount);
     return s;
 }

@@ -18,6 +18,7 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     var visible: Fragment;
     var normal = vec3f(0.0);
     var found = 0u;
+    var passed = Set();
     loop {
         let pick = next_fragment(pixel, opaque, last);
         if !pick.found {
@@ -25,7 +26,8 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
         }
         last = pick;
         let fragment = classified(pick, tile, pixel, ray);
-        let shaded = shade(fragment, meeting(fragment.item, fragment.triangle, ray), ray);
+        let shaded = shade(fragment, meeting(fragment.item, fragment.triangle, ray), ray, passed);
+        passed = also_passed(passed, fragment, shaded);
         if shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
             continue;
         }

@@ -5,7 +5,9 @@
 // (`TAKEN_AWAY`), some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`,
 // `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`), is soft (`SOFT`) or has a surface (`GLASS`), something
 // may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
-// (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`).
+// (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
+// (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`). `CHANNELS`: how many numbers at vertices filters
+// read, at least 1.
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
@@ -66,13 +68,13 @@ struct Frame {
     after_depth: f32,
     after_key: u32,
     after_item: u32,
-    pad_a: u32,
-    pad_b: u32,
-    pad_c: u32,
-    pad_d: u32,
+    // Of the eye: world space.
+    eye: vec4f,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,
+    // For accounts of one pixel: the lenses and rules that act on nearer fragments.
+    passed: array<vec4u, 3>,
 }
 
 const ITEM_TRANSLUCENT: u32 = 1u;
@@ -112,6 +114,8 @@ struct Item {
     first_step: u32,
     step_count: u32,
     masks: array<u32, 5u * WORDS>,
+    // Of each channel, where its numbers start in `attributes`, or NONE, and a factor.
+    channels: array<u32, 2u * CHANNELS>,
 }
 
 const FORM_EMPTY: u32 = 0u;
@@ -360,7 +364,7 @@ fn pixel_ray(pixel: vec2u) -> PixelRay {
     let moving = frame.ray_base.xyz + frame.ray_dx.xyz * at.x + frame.ray_dy.xyz * at.y;
     let still = vec3f(0.0);
     if frame.perspective != 0u {
-        return PixelRay(frame.ray_fixed.xyz, moving, still, still, frame.ray_dx.xyz, frame.ray_dy.xyz);
+        return PixelRay(frame.ray_fixed.xyz, moving, still, still, frame.ray_dx.xyz, frame.ray_dy.xyz, at);
     }
-    return PixelRay(moving, frame.ray_fixed.xyz, frame.ray_dx.xyz, frame.ray_dy.xyz, still, still);
+    return PixelRay(moving, frame.ray_fixed.xyz, frame.ray_dx.xyz, frame.ray_dy.xyz, still, still, at);
 }

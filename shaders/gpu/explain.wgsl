@@ -15,7 +15,11 @@ fn explain() {
     }
     let verdict = walk(pick.item, ray, pick.depth, set_at(tile_at(pixel), pixel, pick.depth));
     let met = meeting(pick.item, pick.triangle, ray);
-    let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), met, ray);
+    var passed = Set();
+    for (var w = 0u; w < WORDS; w += 1u) {
+        passed.words[w] = frame.passed[w / 4u][w % 4u];
+    }
+    let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), met, ray, passed);
     let weights = met.hit.weights;
     report[1] = pick.item;
     report[2] = pick.key;

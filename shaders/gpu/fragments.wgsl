@@ -64,6 +64,18 @@ fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
     return nothing();
 }
 
+// The lenses and rules that act on fragments up to a shaded one; what has no opacity hides no lines.
+fn also_passed(passed: Set, fragment: Fragment, shaded: ShadedFragment) -> Set {
+    if !HIDDEN_LINES || shaded.opacity <= 0.0 {
+        return passed;
+    }
+    var all = passed;
+    for (var w = 0u; w < WORDS; w += 1u) {
+        all.words[w] |= fragment.stack.words[w];
+    }
+    return all;
+}
+
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {
     // Without filters that act on what is seen nobody asks.
     if !LENSES || !(SURFACE_FILTERS || COLOR_FILTERS || COVERAGE_FILTERS) {

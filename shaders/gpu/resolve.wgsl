@@ -23,6 +23,7 @@ fn composited(pixel: vec2u) -> vec4f {
     var front = vec4f(0.0);
     var pick = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
     var glass = no_glass(-FAR_AWAY, 0u);
+    var passed = Set();
     var needs_pick = true;
     var needs_glass = GLASS;
     loop {
@@ -43,7 +44,9 @@ fn composited(pixel: vec2u) -> vec4f {
             break;
         }
         let met = meeting(pick.item, pick.triangle, ray);
-        let shaded = shade(classified(pick, tile, pixel, ray), met, ray);
+        let fragment = classified(pick, tile, pixel, ray);
+        let shaded = shade(fragment, met, ray, passed);
+        passed = also_passed(passed, fragment, shaded);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);
         if opacity >= OPAQUE_FROM {
@@ -61,7 +64,7 @@ fn opaque_color(tile: TileRecord, pixel: vec2u, ray: PixelRay) -> vec4f {
     }
     let met = meeting(seen.x - 1u, seen.y, ray);
     let pick = Pick(met.hit.depth, 0u, seen.x - 1u, seen.y, true);
-    let shaded = shade(classified(pick, tile, pixel, ray), met, ray);
+    let shaded = shade(classified(pick, tile, pixel, ray), met, ray, Set());
     return over(vec4f(0.0), shaded.color, shaded.opacity * shaded.coverage);
 }
 

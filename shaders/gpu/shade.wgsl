@@ -133,8 +133,63 @@ fn filter_read(op: Op, rank: u32, item: u32, t: Triangle, weights: vec3f, s: Sur
     return Read(op.texture, projected_uv(op.flags, mapped, s.normal) * scale, footprint);
 }
 
+// What a filter looks up, and whether there is such a thing: where a surface has no such value the filter does not act.
+struct Looked {
+    reading: Reading,
+    found: bool,
+}
+
+fn look_up(op: Op, rank: u32, item: u32, at: Meeting, s: Surface, ray: PixelRay) -> Looked {
+    var reading = Reading(vec4f(1.0), 0.0, 0.0);
+    let t = at.triangle;
+    let quantity = op_quantity(op);
+    var read = Read(op.texture, vec2f(0.0), 0.0);
+    var reads = TEXTURES && HAS_TEXTURE && op.kind == OP_TEXTURE;
+    if TEXTURES && HAS_TEXTURE && reads {
+        read = filter_read(op, rank, item, t, at.hit.weights, s, ray);
+    }
+    if QUANTITIES && quantity != QUANTITY_NONE {
+        if quantity == QUANTITY_SLOPE {
+            reading.value = s.normal.y;
+        } else {
+            if quantity == QUANTITY_VERTEX && items[item].channels[2u * op_channel(op)] == NONE {
+                return Looked(reading, false);
+            }
+            let value = value_on_triangle(ray, t.a, t.b, t.c, corner_values(op, rank, item, t));
+            reading.value = value.x;
+            reading.change = value.y;
+        }
+        reads = (op.flags & MAPPED) != 0u;
+        read = Read(op.texture, vec2f(in_range(op, reading.value), 0.5), 0.0);
+    }
+    if TEXTURES && reads {
+        reading.texel = sample_texture(read.texture, read.uv, read.footprint);
+    }
+    return Looked(reading, true);
+}
+
+// The quantity of a filter at the corners of a triangle: where the lenses above move its content from.
+fn corner_values(op: Op, rank: u32, item: u32, t: Triangle) -> vec3f {
+    let quantity = op_quantity(op);
+    if quantity == QUANTITY_VERTEX {
+        let start = items[item].channels[2u * op_channel(op)];
+        let factor = bitcast<f32>(items[item].channels[2u * op_channel(op) + 1u]);
+        let c = t.corners;
+        return vec3f(attributes[start + c.x], attributes[start + c.y], attributes[start + c.z]) * factor;
+    }
+    var corners = mat3x3f(t.a, t.b, t.c);
+    let step = step_before(item, rank, op.inner != 0u);
+    if MOVERS && step != 0u {
+        corners = mat3x3f(step_point(step - 1u, t.a), step_point(step - 1u, t.b), step_point(step - 1u, t.c));
+    }
+    if quantity == QUANTITY_DEPTH {
+        return frame.forward.xyz * corners;
+    }
+    return vec3f(corners[0].y, corners[1].y, corners[2].y) + vec3f(frame.eye.y);
+}
+
 // A surface as its material has it.
-fn material_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> Surface {
+fn surface_of_material(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> Surface {
     let item = f.item;
     let m = items[item].material;
     let view = -normalize(ray.direction);
@@ -172,6 +227,7 @@ fn material_surface(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) -> 
     }
     s.opacity = 1.0;
     s.unlit = f32(materials[m].unlit);
+    s.pixel = ray.pixel;
     return s;
 }
 
@@ -188,10 +244,11 @@ fn lit(s: Surface) -> vec3f {
 }
 
 // Runs the stack on a fragment where a pixel's ray meets it: surface filters, lighting once, colour filters, coverage.
-fn shade(f: Fragment, at: Meeting, ray: PixelRay) -> ShadedFragment {
+// `passed`: the lenses and rules that act on nearer ones.
+fn shade(f: Fragment, at: Meeting, ray: PixelRay, passed: Set) -> ShadedFragment {
     let t = at.triangle;
     let weights = at.hit.weights;
-    var surface = material_surface(f, t, weights, ray);
+    var surface = surface_of_material(f, t, weights, ray);
     if !LENSES {
         return ShadedFragment(emitted(surface, lit(surface)), surface_opacity(surface), 1.0, surface.normal);
     }
@@ -203,7 +260,7 @@ fn shade(f: Fragment, at: Meeting, ray: PixelRay) -> ShadedFragment {
         shaded.color = color_stage(shaded.color, f, surface.position);
     }
     if COVERAGE_FILTERS {
-        shaded = coverage_stage(shaded, f, at, ray, surface.position);
+        shaded = coverage_stage(shaded, f, at, ray, surface.position, passed);
     }
     return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, surface.normal);
 }
@@ -215,12 +272,11 @@ fn surface_stage(material: Surface, f: Fragment, at: Meeting, ray: PixelRay) -> 
         loop {
             if is_filter(place) {
                 let op = ops[place.op];
-                var texel = vec4f(1.0);
-                if TEXTURES && op.kind == OP_TEXTURE {
-                    let read = filter_read(op, place.rank, f.item, at.triangle, at.hit.weights, s, ray);
-                    texel = sample_texture(read.texture, read.uv, read.footprint);
+                let looked = look_up(op, place.rank, f.item, at, s, ray);
+                if looked.found {
+                    let amount = soft_amount(place.rank, f.item, s.position);
+                    s = faded_surface(s, filter_surface(op, s, looked.reading), amount);
                 }
-                s = faded_surface(s, filter_surface(op, s, texel), soft_amount(place.rank, f.item, s.position));
             }
             continuing {
                 place = stack_next(place);
@@ -249,15 +305,25 @@ fn color_stage(lit: vec3f, f: Fragment, position: vec3f) -> vec3f {
     return color;
 }
 
-fn coverage_stage(full: Shaded, f: Fragment, at: Meeting, ray: PixelRay, position: vec3f) -> Shaded {
-    let edge = wire_distance(ray, at.triangle.a, at.triangle.b, at.triangle.c);
+fn coverage_stage(full: Shaded, f: Fragment, at: Meeting, ray: PixelRay, position: vec3f, passed: Set) -> Shaded {
+    let t = at.triangle;
+    var spot = Spot(0.0, 0.0, 0u);
+    if HAS_WIREFRAME {
+        spot.edge = wire_distance(ray, t.a, t.b, t.c);
+    }
+    if HAS_POINTS {
+        spot.corner = corner_distance(ray, t.a, t.b, t.c);
+    }
     var shaded = full;
     var place = stack_start(f.stack);
     if place.found {
         loop {
-            if is_filter(place) && ops[place.op].kind == OP_WIREFRAME {
+            if is_filter(place) {
                 let amount = soft_amount(place.rank, f.item, position);
-                shaded = faded_shaded(shaded, filter_wireframe(ops[place.op], shaded, edge), amount);
+                if HIDDEN_LINES {
+                    spot.hidden = passed.words[place.rank / 32u] >> (place.rank % 32u) & 1u;
+                }
+                shaded = faded_shaded(shaded, filter_coverage(ops[place.op], shaded, spot), amount);
             }
             continuing {
                 place = stack_next(place);

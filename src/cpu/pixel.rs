@@ -3,10 +3,10 @@
 mod moved;
 mod removed;
 
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::block::{Block, BlockRays, Camera};
-use super::convert::d3;
+use super::convert::{d3, v2};
 use super::geometry::{Geometry, Reach, Triangle};
 use super::glass::{GlassHit, GlassHits};
 use super::intersect::ShearedRay;
@@ -54,6 +54,8 @@ pub struct Scratch {
 #[derive(Default)]
 struct OneRay {
     ray: Ray,
+    /// The point of the picture, in pixels.
+    at: Vec2,
     layers: RayLayers,
     moved: MovedLayers,
     /// The nearest fragment that surely ends the ray.
@@ -152,6 +154,7 @@ impl<'a> Tracer<'a> {
         let (x, y) = block.point(number);
         let view = &self.plan.view;
         one.ray = view.ray(x, y);
+        one.at = Vec2::new(x as f32, y as f32);
         one.moved.clear();
         one.opaque = None;
         let volumes = ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume));
@@ -183,7 +186,7 @@ impl<'a> Tracer<'a> {
     pub fn color(&self, sample: usize, ranks: &[usize], scratch: &mut Scratch) -> Vec4 {
         let Scratch { rays, listed, glass, .. } = scratch;
         let one = &rays[sample];
-        let pixel = self.pixel_ray(&one.ray);
+        let pixel = self.pixel_ray(&one.ray, one.at);
         glass.find(self.plan, ranks, &one.ray, &pixel);
         self.composite(fragments(sample, one, listed), &glass.hits, &pixel)
     }
@@ -195,12 +198,16 @@ impl<'a> Tracer<'a> {
         pixel: &wgsl::PixelRay,
     ) -> Vec4 {
         let mut front = Vec4::ZERO;
+        let mut passed = LensSet::EMPTY;
         let mut glass = glass.iter().peekable();
         for fragment in fragments {
             while let Some(hit) = glass.next_if(|hit| hit.depth < f64::from(fragment.depth)) {
                 front = over(front, hit.color.truncate(), hit.color.w);
             }
-            let shaded = self.shader.shade(fragment, pixel);
+            let shaded = self.shader.shade(fragment, pixel, passed);
+            if shaded.opacity > 0.0 {
+                passed = passed | fragment.region.stack;
+            }
             let opacity = shaded.opacity * shaded.coverage;
             front = over(front, shaded.color, opacity);
             if opacity >= wgsl::OPAQUE_FROM.0 {
@@ -213,10 +220,14 @@ impl<'a> Tracer<'a> {
     /// What is at a sample of the block traced last, without what lenses take away.
     pub fn report(&self, sample: usize, scratch: &Scratch) -> PixelReport {
         let one = &scratch.rays[sample];
-        let pixel = self.pixel_ray(&one.ray);
+        let pixel = self.pixel_ray(&one.ray, one.at);
         let mut report = PixelReport { layers: one.layers.starts.clone(), ..PixelReport::default() };
+        let mut passed = LensSet::EMPTY;
         for fragment in fragments(sample, one, &scratch.listed) {
-            let Shaded { opacity, coverage, normal, .. } = self.shader.shade(fragment, &pixel);
+            let Shaded { opacity, coverage, normal, .. } = self.shader.shade(fragment, &pixel, passed);
+            if opacity > 0.0 {
+                passed = passed | fragment.region.stack;
+            }
             if !report.push(Survivor { fragment: *fragment, opacity, coverage }, normal) {
                 break;
             }
@@ -276,8 +287,8 @@ impl<'a> Tracer<'a> {
         (fragment.depth, self.item(fragment.instance).first_triangle + fragment.triangle)
     }
 
-    /// A ray around the eye, for shading.
-    fn pixel_ray(&self, ray: &Ray) -> wgsl::PixelRay {
+    /// A ray around the eye, for shading; `at`: the point of the picture, in pixels.
+    fn pixel_ray(&self, ray: &Ray, at: Vec2) -> wgsl::PixelRay {
         let view = &self.plan.view;
         let (right, down) = view.pixel_steps();
         let none = glam::DVec3::ZERO;
@@ -290,6 +301,7 @@ impl<'a> Tracer<'a> {
             origin_dy: d3(origin_steps.1),
             direction_dx: d3(direction_steps.0),
             direction_dy: d3(direction_steps.1),
+            pixel: v2(at),
         }
     }
 }

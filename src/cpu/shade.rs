@@ -6,8 +6,8 @@ use super::convert::{a4, g2, g3, g4, light, op, v2, v3, v4};
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::Fragment;
-use crate::plan::{Instance, Item, Plan};
-use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot};
+use crate::plan::{Instance, Item, LensSet, Plan};
+use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
 /// The records of a plan in the form that the translated shaders take.
@@ -19,6 +19,9 @@ pub struct Shader<'a> {
     up: Vec3,
     /// Of each instance.
     transforms: Vec<Transform>,
+    /// Of each item, for each of the plan's channels, where it has one.
+    values: Vec<Vec<Option<VertexValues<'a>>>>,
+    forward: Vec3,
 }
 
 /// From local space to the world's axes around the eye as shown: for points, and for normals.
@@ -34,6 +37,21 @@ pub struct Shaded {
     pub opacity: f32,
     pub coverage: f32,
     pub normal: Vec3,
+}
+
+/// Numbers at the vertices of an item's primitive, and what they are multiplied by.
+type VertexValues<'a> = (&'a [f32], f32);
+
+/// Where a ray meets a triangle.
+struct Hit<'h, 'a> {
+    instance: &'h Instance,
+    corners: &'h Corners<'a>,
+    weights: Vec3,
+    /// Around the eye.
+    position: Vec3,
+    /// For shading.
+    normal: Vec3,
+    ray: &'h wgsl::PixelRay,
 }
 
 /// A triangle of an item with its corners around the eye, along the world's axes.
@@ -73,7 +91,18 @@ impl<'a> Shader<'a> {
                 Transform { point: around.as_affine3a(), normal: around.matrix3.inverse().transpose().as_mat3() }
             })
             .collect();
+        let values = |item: &Item| {
+            let model = &scene.models[item.model];
+            let primitive = &model.meshes[item.mesh].primitives[item.primitive];
+            let of = |name: &String| {
+                let factor = scene_factor(name, &model.nodes[item.node].world_from_local);
+                primitive.values.get(name).map(|values| (values.as_slice(), factor))
+            };
+            plan.channels.iter().map(of).collect()
+        };
         Self {
+            values: plan.items.iter().map(values).collect(),
+            forward: plan.view.forward.as_vec3(),
             scene,
             plan,
             ops: plan.ops.iter().map(op).collect(),
@@ -83,19 +112,18 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Runs the stack on a fragment that a pixel's ray has met.
-    pub fn shade(&self, fragment: &Fragment, ray: &wgsl::PixelRay) -> Shaded {
+    /// Runs the stack on a fragment that a pixel's ray has met. `passed`: the lenses and rules that act on nearer ones.
+    pub fn shade(&self, fragment: &Fragment, ray: &wgsl::PixelRay, passed: LensSet) -> Shaded {
         let instance = &self.plan.instances[fragment.instance as usize];
         let item = &self.plan.items[instance.item];
         let corners = self.corners(item, fragment);
-        let [a, b, c] = corners.around.map(v3);
-        let weights = fragment.weights;
         let geometric =
             (corners.around[1] - corners.around[0]).cross(corners.around[2] - corners.around[0]).normalize_or_zero();
         let view = -g3(ray.direction).normalize();
         let mut surface = self.surface(item, fragment, &corners, geometric, view, ray);
         let normal = g3(surface.normal);
         let position = g3(surface.position);
+        let hit = Hit { instance, corners: &corners, weights: fragment.weights, position, normal, ray };
         let ops = || {
             fragment.region.stack.iter().flat_map(|rank| {
                 let amount = self.amount(rank, instance, position);
@@ -103,13 +131,9 @@ impl<'a> Shader<'a> {
             })
         };
         for (rank, op, amount) in ops() {
-            let texel = if op.kind == wgsl::OP_TEXTURE.0 {
-                let source = instance.source_from_shown(rank, op.inner != 0);
-                self.filter_texel(op, &corners, weights, position, normal, &source, ray)
-            } else {
-                Vec4::ONE
-            };
-            surface = wgsl::faded_surface(surface, wgsl::filter_surface(*op, surface, v4(texel)), amount);
+            let source = || instance.source_from_shown(rank, op.inner != 0);
+            let Some(reading) = self.reading(op, &hit, source) else { continue };
+            surface = wgsl::faded_surface(surface, wgsl::filter_surface(*op, surface, reading), amount);
         }
         let opacity = wgsl::surface_opacity(surface);
         let mut color = g3(wgsl::emitted(surface, v3(self.light(surface))));
@@ -117,10 +141,13 @@ impl<'a> Shader<'a> {
             color = color.lerp(g3(wgsl::filter_color(*op, v3(color))), amount);
         }
         let mut shaded = wgsl::Shaded { color: v3(color), opacity, coverage: 1.0 };
-        let mut edge = None;
-        for (_, op, amount) in ops().filter(|(_, op, _)| op.kind == wgsl::OP_WIREFRAME.0) {
-            let edge = *edge.get_or_insert_with(|| wgsl::wire_distance(*ray, a, b, c));
-            shaded = wgsl::faded_shaded(shaded, wgsl::filter_wireframe(*op, shaded, edge), amount);
+        let mut near = None;
+        for (rank, op, amount) in ops().filter(|(_, op, _)| wgsl::FILTERS[op.kind as usize].stages[2]) {
+            let [a, b, c] = corners.around.map(v3);
+            let lies = || (wgsl::wire_distance(*ray, a, b, c), wgsl::corner_distance(*ray, a, b, c));
+            let (edge, corner) = *near.get_or_insert_with(lies);
+            let spot = wgsl::Spot { edge, corner, hidden: u32::from(passed.contains(rank)) };
+            shaded = wgsl::faded_shaded(shaded, wgsl::filter_coverage(*op, shaded, spot), amount);
         }
         Shaded { color: g3(shaded.color), opacity: shaded.opacity, coverage: shaded.coverage, normal }
     }
@@ -182,6 +209,10 @@ impl<'a> Shader<'a> {
             alpha_cutoff: material.alpha_cutoff,
             opacity: 1.0,
             unlit: material.unlit as f32,
+            pixel: ray.pixel,
+            toon: v2(Vec2::ZERO),
+            hatch: v4(Vec4::ZERO),
+            hatch_lines: v2(Vec2::ONE),
         }
     }
 
@@ -243,18 +274,50 @@ impl<'a> Shader<'a> {
         texture::sample(&self.scene.textures, index, at, footprint)
     }
 
+    /// What a filter looks up; `None` where it does not act, as the surface has no such value. `source`: from the shown
+    /// point to where the filter acts.
+    fn reading(&self, op: &wgsl::Op, hit: &Hit, source: impl Fn() -> DAffine3) -> Option<wgsl::Reading> {
+        let mut reading = wgsl::Reading { texel: v4(Vec4::ONE), value: 0.0, change: 0.0 };
+        let quantity = wgsl::op_quantity(*op);
+        if quantity == wgsl::QUANTITY_NONE.0 {
+            if op.kind == wgsl::OP_TEXTURE.0 {
+                reading.texel = v4(self.filter_texel(op, hit, &source()));
+            }
+            return Some(reading);
+        }
+        if quantity == wgsl::QUANTITY_SLOPE.0 {
+            reading.value = hit.normal.y;
+        } else {
+            let [a, b, c] = hit.corners.around.map(v3);
+            let values = self.corner_values(quantity, wgsl::op_channel(*op), hit, source)?;
+            let value = wgsl::value_on_triangle(*hit.ray, a, b, c, v3(values));
+            (reading.value, reading.change) = (value.x, value.y);
+        }
+        if op.flags & wgsl::MAPPED.0 != 0 {
+            let at = Vec2::new(wgsl::in_range(*op, reading.value), 0.5);
+            reading.texel = v4(texture::sample(&self.scene.textures, op.texture, at, 0.0));
+        }
+        Some(reading)
+    }
+
+    /// A quantity at the corners of a triangle.
+    fn corner_values(&self, quantity: u32, channel: u32, hit: &Hit, source: impl Fn() -> DAffine3) -> Option<Vec3> {
+        if quantity == wgsl::QUANTITY_VERTEX.0 {
+            let (values, factor) = self.values[hit.instance.item][channel as usize]?;
+            return Some(Vec3::from_array(hit.corners.indices.map(|i| values[i] * factor)));
+        }
+        let (source, eye) = (source(), self.plan.view.eye);
+        let from_eye = |around: Vec3| (source.transform_point3(around.as_dvec3() + eye) - eye).as_vec3();
+        let values = hit.corners.around.map(|around| match quantity {
+            q if q == wgsl::QUANTITY_DEPTH.0 => from_eye(around).dot(self.forward),
+            _ => from_eye(around).y + eye.y as f32,
+        });
+        Some(Vec3::from_array(values))
+    }
+
     /// The texel of a `texture` filter; `source`: from the shown point to where the filter acts, a similarity.
-    #[expect(clippy::too_many_arguments, reason = "a hit, its surface and its ray")]
-    fn filter_texel(
-        &self,
-        op: &wgsl::Op,
-        corners: &Corners,
-        weights: Vec3,
-        position: Vec3,
-        normal: Vec3,
-        source: &DAffine3,
-        ray: &wgsl::PixelRay,
-    ) -> Vec4 {
+    fn filter_texel(&self, op: &wgsl::Op, hit: &Hit, source: &DAffine3) -> Vec4 {
+        let Hit { corners, weights, position, normal, ray, .. } = *hit;
         let scale = Vec2::new(op.a.x, op.a.y);
         if op.flags == wgsl::UV_MESH.0 {
             return self.sample(op.texture, corners.uv(0).map(|uv| uv * scale), corners, weights, ray);

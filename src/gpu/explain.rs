@@ -83,7 +83,9 @@ impl Headless {
         let mut all: Vec<Found> = Vec::new();
         let mut after = Place::FIRST;
         while let Some(found) = self.next_behind(renderer, scene, plan, window, after)? {
-            after = found.place;
+            let is_there = found.displayed && found.survivor.opacity > 0.0;
+            let stack = if is_there { found.survivor.fragment.region.stack } else { LensSet::EMPTY };
+            after = Place { passed: after.passed | stack, ..found.place };
             all.push(found);
         }
         Ok(all)
@@ -127,7 +129,7 @@ fn found(plan: &Plan, words: &[u32]) -> Found {
         region: Region { set, stack },
     };
     Found {
-        place: Place { depth: fragment.depth, key: fixed[2], item: fixed[3] },
+        place: Place { depth: fragment.depth, key: fixed[2], item: fixed[3], passed: LensSet::EMPTY },
         survivor: Survivor { fragment, opacity: float(6), coverage: float(7) },
         normal: Vec3::new(float(11), float(12), float(13)),
         displayed: fixed[5] != 0,

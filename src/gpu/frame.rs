@@ -6,7 +6,7 @@ use super::part_data::AffineRay;
 use super::records::{FrameRecord, all_words, extended};
 use super::tiles::Tiles;
 use super::{Engine, Window};
-use crate::plan::Plan;
+use crate::plan::{LensSet, Plan};
 use crate::view::Projection;
 
 /// One pass of the whole pipeline over a window.
@@ -28,11 +28,13 @@ pub struct Place {
     pub key: u32,
     /// The number of its record.
     pub item: u32,
+    /// The lenses and rules that act on it and on nearer ones.
+    pub passed: LensSet,
 }
 
 impl Place {
     /// Before all fragments.
-    pub const FIRST: Place = Place { depth: f32::MIN, key: 0, item: 0 };
+    pub const FIRST: Place = Place { depth: f32::MIN, key: 0, item: 0, passed: LensSet::EMPTY };
 }
 
 /// The samples of a plan: a square grid and, when maps are asked for, the pixel's centre.
@@ -110,9 +112,10 @@ impl FrameShape<'_> {
             after_depth: self.after.map_or(0.0, |place| place.depth),
             after_key: self.after.map_or(u32::MAX, |place| place.key),
             after_item: self.after.map_or(0, |place| place.item),
-            pad: [0; 4],
+            eye: extended(view.eye),
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
+            passed: all_words(&self.after.map_or(LensSet::EMPTY, |place| place.passed)),
         }
     }
 

@@ -3,22 +3,22 @@
 use glam::DAffine3;
 
 use super::draws::shown_from_local;
-use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, StepRecord, rows, words_of};
+use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
 use super::upload::SceneData;
 use crate::plan::{Instance, Plan, Step};
-use crate::scene::{MaterialRecord, NO_TEXTURE, Scene};
+use crate::scene::{MaterialRecord, NO_TEXTURE, Scene, scene_factor};
 
 /// Records of all instances, and their steps.
 #[derive(Debug, Clone, Default)]
 pub struct ItemData {
-    /// A record and its item's masks, for each instance.
+    /// A record, its item's masks and its channels, for each instance.
     pub items: Vec<u8>,
     pub steps: Vec<StepRecord>,
 }
 
 /// Bytes from one record to the next; they start at multiples of 16 bytes.
-pub fn item_stride(words: u32) -> u64 {
-    (size_of::<ItemRecord>() as u64 + 5 * 4 * u64::from(words)).next_multiple_of(16)
+pub fn item_stride(words: u32, channels: u32) -> u64 {
+    (size_of::<ItemRecord>() as u64 + 4 * u64::from(5 * words + 2 * channels.max(1))).next_multiple_of(16)
 }
 
 impl ItemData {
@@ -30,10 +30,15 @@ impl ItemData {
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
             let record = ItemRecord { first_step, ..record(scene, plan, instance, uploaded) };
-            let end = data.items.len() + item_stride(words) as usize;
+            let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
             for mask in [item.scope, item.object, item.shown_by, item.removed_by, item.movers] {
                 words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
+            }
+            for name in &plan.channels {
+                let factor = scene_factor(name, &scene.models[item.model].nodes[item.node].world_from_local);
+                let start = uploaded.primitive(item).0.values.get(name).copied().unwrap_or(NONE);
+                data.items.extend_from_slice(bytemuck::cast_slice(&[start, factor.to_bits()]));
             }
             data.items.resize(end, 0);
         }

@@ -3,8 +3,9 @@
 use super::Engine;
 use super::cells::{has_planes, is_convex};
 use super::program::condition;
+use crate::appearance::FILTERS;
 use crate::lens::{Form, Tree, Volume};
-use crate::plan::{Item, Plan};
+use crate::plan::{Item, Op, Plan};
 use crate::scene::{Primitive, Scene};
 
 /// So few convex parts a fragment asks sooner than it looks up layers that had to be found first.
@@ -45,6 +46,14 @@ pub struct Needs {
     pub lights: u32,
     /// Some filter acts on surfaces before they are lit, on lit colours, on coverage.
     pub stages: [bool; 3],
+    /// Bit i: there is a filter of the number i.
+    pub filters: u64,
+    /// Some filter reads a quantity of the surface.
+    pub quantities: bool,
+    /// Some filter has wires that nearer surfaces hide.
+    pub hidden_lines: bool,
+    /// How many numbers at vertices filters read.
+    pub channels: u32,
 }
 
 impl Needs {
@@ -75,6 +84,10 @@ impl Needs {
             vertex_colors: primitives(scene).any(|p| p.colors.is_some()),
             lights: plan.lighting.lights.len() as u32,
             stages: [0, 1, 2].map(|stage| plan.ops.iter().any(|op| op.acts_in(stage))),
+            filters: plan.ops.iter().fold(0, |all, op| all | filter_bits(op)),
+            quantities: plan.ops.iter().any(Op::reads_quantity),
+            hidden_lines: plan.ops.iter().any(Op::hides_lines),
+            channels: plan.channels.len() as u32,
         }
     }
 
@@ -95,6 +108,9 @@ impl Needs {
             soft: false,
             glass: false,
             stages: [false; 3],
+            filters: 0,
+            quantities: false,
+            hidden_lines: false,
             translucent: plan.items.iter().any(|item| item.translucent),
             ..self
         }
@@ -102,7 +118,17 @@ impl Needs {
 
     /// The same for passes that find fragments and shade none.
     pub fn without_shading(self) -> Self {
-        Self { glass: false, textures: false, vertex_colors: false, lights: 0, stages: [false; 3], ..self }
+        Self {
+            glass: false,
+            textures: false,
+            vertex_colors: false,
+            lights: 0,
+            stages: [false; 3],
+            filters: 0,
+            quantities: false,
+            hidden_lines: false,
+            ..self
+        }
     }
 
     /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything.
@@ -116,13 +142,16 @@ impl Needs {
             textures: true,
             vertex_colors: true,
             stages: [true; 3],
+            filters: u64::MAX,
+            quantities: true,
+            hidden_lines: true,
             ..self
         }
     }
 
     /// The constants that the shaders ask.
     pub fn wgsl(&self) -> String {
-        let Self { set_words, part_words, lights, .. } = self;
+        let Self { set_words, part_words, lights, channels, .. } = self;
         let flags = [
             ("LENSES", self.lenses),
             ("LAYERS", self.layers),
@@ -141,11 +170,30 @@ impl Needs {
             ("SURFACE_FILTERS", self.stages[0]),
             ("COLOR_FILTERS", self.stages[1]),
             ("COVERAGE_FILTERS", self.stages[2]),
+            ("QUANTITIES", self.quantities),
+            ("HIDDEN_LINES", self.hidden_lines),
         ];
+        let filters = FILTERS.iter().enumerate().map(|(number, filter)| {
+            let (name, has) = (filter.name.to_uppercase(), self.filters >> number & 1 != 0);
+            format!("const HAS_{name}: bool = {has};\n")
+        });
         let flags = flags.map(|(name, value)| format!("const {name}: bool = {value};\n")).concat();
-        let counts = [("WORDS", set_words), ("PART_WORDS", part_words), ("LIGHTS", lights)];
-        counts.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat() + &flags
+        let channels = &(*channels).max(1);
+        let counts = [("WORDS", set_words), ("PART_WORDS", part_words), ("LIGHTS", lights), ("CHANNELS", channels)];
+        let counts = counts.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat();
+        counts + &flags + &filters.collect::<String>()
     }
+}
+
+/// Filters of a few instructions, which are not worth a variant each.
+const SMALL: [&str; 8] = ["brightness", "grayscale", "invert", "material", "normals", "opacity", "tint", "unlit"];
+
+fn filter_bits(op: &Op) -> u64 {
+    let bit = |name: &str| FILTERS.iter().position(|filter| filter.name == name).map_or(0, |number| 1 << number);
+    if SMALL.contains(&FILTERS[op.kind as usize].name) {
+        return SMALL.iter().fold(0, |all, name| all | bit(name));
+    }
+    1 << op.kind
 }
 
 fn primitives(scene: &Scene) -> impl Iterator<Item = &Primitive> {

@@ -107,7 +107,14 @@ impl Pipelines {
         let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, &self.needs));
         let build = || {
             let layout = pipeline_layout(store, &store.layouts.visibility);
-            draw_pipeline(&store.device, module, &layout, program.entry(), culling, item_stride(self.needs.set_words))
+            draw_pipeline(
+                &store.device,
+                module,
+                &layout,
+                program.entry(),
+                culling,
+                item_stride(self.needs.set_words, self.needs.channels),
+            )
         };
         let mut kept = self.draws.lock().unwrap_or_else(PoisonError::into_inner);
         kept.entry((program, culling)).or_insert_with(build).clone()

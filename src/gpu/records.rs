@@ -61,9 +61,12 @@ pub struct FrameRecord {
     pub after_key: u32,
     /// Into `Plan::instances`.
     pub after_item: u32,
-    pub pad: [u32; 4],
+    /// World space.
+    pub eye: [f32; 4],
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
+    /// For accounts of one pixel: the lenses and rules that act on nearer fragments.
+    pub passed: [u32; 12],
 }
 
 /// One instance of an item; its masks follow.

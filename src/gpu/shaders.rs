@@ -70,7 +70,7 @@ const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");
 /// The whole WGSL of a module.
 pub fn source(module: Module, needs: &Needs) -> String {
     let mut text = needs.wgsl();
-    text += crate::appearance::WGSL;
+    text += crate::appearance::FUNCTIONS;
     text += COMMON;
     for part in module.parts().iter().copied().flatten() {
         text += part;

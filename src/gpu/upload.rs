@@ -1,6 +1,6 @@
 //! The scene on the device: geometry, materials, textures. Lives as long as the scene.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
@@ -13,7 +13,7 @@ use crate::plan::Item;
 use crate::scene::{Primitive, Scene};
 
 /// Where a primitive lies in the shared buffers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Range {
     pub first_index: u32,
     /// Where the numbers start that its triangles have in the primitive.
@@ -24,6 +24,8 @@ pub struct Range {
     pub tangents: u32,
     pub colors: u32,
     pub uv: [u32; 2],
+    /// Of other numbers at vertices, by name.
+    pub values: BTreeMap<String, u32>,
 }
 
 /// Model, mesh and primitive.
@@ -48,7 +50,13 @@ struct Lists {
 }
 
 impl Lists {
-    fn add(&mut self, primitive: &Primitive, Clustered { order, clusters }: Clustered) -> (Range, Vec<Cluster>) {
+    /// `wanted`: the names of the numbers at vertices that filters read.
+    fn add(
+        &mut self,
+        primitive: &Primitive,
+        Clustered { order, clusters }: Clustered,
+        wanted: &BTreeMap<String, [f32; 2]>,
+    ) -> (Range, Vec<Cluster>) {
         let numbers = order;
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| primitive.triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
@@ -60,11 +68,22 @@ impl Lists {
             tangents: self.attribute(&order, primitive.tangents.as_deref()),
             colors: self.attribute(&order, primitive.colors.as_deref()),
             uv: [0, 1].map(|set| self.attribute(&order, primitive.uv[set].as_deref())),
+            values: self.values(&order, primitive, wanted),
         };
         self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
         self.numbers.extend(numbers);
         (range, clusters)
+    }
+
+    fn values(
+        &mut self,
+        order: &Provoking,
+        primitive: &Primitive,
+        wanted: &BTreeMap<String, [f32; 2]>,
+    ) -> BTreeMap<String, u32> {
+        let values = primitive.values.iter().filter(|(name, _)| wanted.contains_key(*name));
+        values.map(|(name, values)| (name.clone(), self.attribute(order, Some(values)))).collect()
     }
 
     fn attribute<T: bytemuck::Pod>(&mut self, order: &Provoking, values: Option<&[T]>) -> u32 {
@@ -87,7 +106,7 @@ impl SceneData {
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
                 for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    primitives.insert((m, i, p), lists.add(primitive, Clustered::new(primitive)));
+                    primitives.insert((m, i, p), lists.add(primitive, Clustered::new(primitive), &scene.value_ranges));
                 }
             }
         }
@@ -121,9 +140,9 @@ impl SceneData {
     }
 
     /// Where an item's primitive lies, and its clusters.
-    pub fn primitive(&self, item: &Item) -> (Range, &[Cluster]) {
+    pub fn primitive(&self, item: &Item) -> (&Range, &[Cluster]) {
         let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive)];
-        (*range, clusters)
+        (range, clusters)
     }
 }
 

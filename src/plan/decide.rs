@@ -75,7 +75,7 @@ enum Writes {
     Surface(u32),
     /// The lit colour.
     Lit,
-    /// Wires: their coverages multiply, but the upper wire's colour wins.
+    /// Wires and points: their coverages multiply, but the upper wire's colour wins.
     Wires,
 }
 
@@ -83,6 +83,8 @@ const BASE_COLOR: u32 = 1;
 const METALLIC: u32 = 2;
 const ROUGHNESS: u32 = 4;
 const EMISSIVE: u32 = 8;
+const TOON: u32 = 16;
+const HATCH: u32 = 32;
 
 fn writes(filter: &Filter) -> Writes {
     let bit = |written: bool, bit: u32| if written { bit } else { 0 };
@@ -90,15 +92,26 @@ fn writes(filter: &Filter) -> Writes {
         Filter::Erase { .. } => Writes::Removal,
         Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => Writes::Content,
         Filter::Opacity { .. } | Filter::Unlit { color: None } => Writes::Factor,
-        Filter::Unlit { .. } | Filter::Texture { .. } | Filter::Normals => Writes::Surface(BASE_COLOR),
+        Filter::Ghost { color: None, .. } => Writes::Factor,
+        Filter::Ghost { .. }
+        | Filter::Unlit { .. }
+        | Filter::Texture { .. }
+        | Filter::Normals
+        | Filter::FalseColor { .. } => Writes::Surface(BASE_COLOR),
+        // Between the lines nothing sends out light of its own.
+        Filter::Contours { .. } => Writes::Surface(BASE_COLOR | EMISSIVE),
+        Filter::Toon { .. } => Writes::Surface(TOON),
+        Filter::Hatch { .. } => Writes::Surface(HATCH),
         Filter::Material { color, metallic, roughness, emissive } => Writes::Surface(
             bit(color.is_some(), BASE_COLOR)
                 | bit(metallic.is_some(), METALLIC)
                 | bit(roughness.is_some(), ROUGHNESS)
                 | bit(emissive.is_some(), EMISSIVE),
         ),
-        Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } => Writes::Lit,
-        Filter::Wireframe { .. } => Writes::Wires,
+        Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } | Filter::Brightness { .. } => {
+            Writes::Lit
+        }
+        Filter::Wireframe { .. } | Filter::Points { .. } => Writes::Wires,
     }
 }
 
@@ -110,11 +123,15 @@ fn filters_commute(f: &Filter, g: &Filter) -> bool {
             _ => true,
         },
         (Writes::Surface(a), Writes::Surface(b)) => a & b == 0 || f == g,
-        // Both keep the luminance that they mix towards.
-        (Writes::Lit, Writes::Lit) => f == g || matches!((f, g), (Filter::Grayscale { .. }, Filter::Grayscale { .. })),
+        // They keep the luminance that they mix towards, or multiply it.
+        (Writes::Lit, Writes::Lit) => f == g || (keeps_luminance(f) && keeps_luminance(g)),
         (Writes::Content, Writes::Content) => f == g,
         _ => true,
     }
+}
+
+fn keeps_luminance(filter: &Filter) -> bool {
+    matches!(filter, Filter::Grayscale { .. } | Filter::Brightness { .. })
 }
 
 fn wire_color(filter: &Filter) -> Option<crate::spec::Color> {

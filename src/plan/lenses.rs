@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::DAffine3;
 
+use super::op::Ops;
 use super::{LensSet, MAX_LENSES, Op, PriorityGraph, Rank, filter_name};
 use crate::InputError;
 use crate::lens::{MAX_PARTS, PixelRect, Placement, Volume, build_volume};
@@ -138,29 +139,27 @@ pub(super) fn ranks(spec: &Spec, volumes: &[Option<Placed>], view: &View) -> Vec
 /// The lenses in total order with their filters as records.
 pub(super) fn rank_lenses(
     spec: &Spec,
-    scene: &Scene,
     graph: &PriorityGraph,
     order: &[usize],
     volumes: &[Option<Placed>],
-    view: &View,
-) -> (Vec<Lens>, Vec<Op>) {
-    let mut ops = Vec::new();
+    ops: &mut Ops,
+) -> Vec<Lens> {
     let mut lenses: Vec<Lens> = Vec::new();
     for (rank, &index) in order.iter().enumerate() {
         let (lens, Some(placed)) = (&spec.lenses[index], &volumes[index]) else { continue };
         let filters: Vec<Filter> = lens.filters.iter().map(|f| f.value.clone()).collect();
-        let own = Op::append(&filters, scene, &mut ops);
+        let own = ops.append(&filters);
         let overrides = lens.overlap == OverlapMode::Override;
         lenses.push(Lens {
             name: lens.name.value.clone(),
             index,
-            rect: placed.volume.pixel_rect(view),
+            rect: placed.volume.pixel_rect(ops.view),
             volume: placed.volume.clone(),
             world_from_shape: placed.world_from_shape,
             by: lens.by,
             hides: if overrides { LensSet::below(rank) } else { hidden_by(graph, order, index) },
             overrides,
-            translucent: ops[own.clone()].iter().any(Op::may_be_translucent),
+            translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             moves: filters.iter().any(Filter::moves),
             soft: lens.soft,
             filters,
@@ -168,7 +167,7 @@ pub(super) fn rank_lenses(
             glass: lens.glass.map(GlassRecord::from),
         });
     }
-    (lenses, ops)
+    lenses
 }
 
 /// Ranks of the lenses that a lens of the file names in `hides`.

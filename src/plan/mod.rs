@@ -55,6 +55,8 @@ pub struct Plan {
     pub rules: Vec<Rule>,
     /// Appearance filters of all lenses and rules; each has a range of them.
     pub ops: Vec<Op>,
+    /// Names of the numbers at vertices that filters read: of [`Primitive::values`](crate::scene::Primitive::values).
+    pub channels: Vec<String>,
     /// What can be drawn: the scene, then each content that some `show` names.
     pub contents: Vec<Content>,
     /// What is drawn, in the order that decides ties: by content, node, primitive.
@@ -87,8 +89,10 @@ impl Plan {
         let ranks = lenses::ranks(spec, &volumes, &view);
         let order = graph.total_order(&ranks);
         camera::fit_depths(&mut view, spec, scene, &volumes, &order)?;
-        let (lenses, mut ops) = lenses::rank_lenses(spec, scene, &graph, &order, &volumes, &view);
-        let rules = rules::collect(spec, scene, &lenses, &mut ops);
+        let mut ops = op::Ops { scene, view: &view, list: Vec::new(), channels: Vec::new() };
+        let lenses = lenses::rank_lenses(spec, &graph, &order, &volumes, &mut ops);
+        let rules = rules::collect(spec, &lenses, &mut ops);
+        let op::Ops { list: ops, channels, .. } = ops;
         let (contents, items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
@@ -102,6 +106,7 @@ impl Plan {
             lenses,
             rules,
             ops,
+            channels,
             contents,
             items,
             instances,

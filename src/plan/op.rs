@@ -1,8 +1,9 @@
 //! Filters as both backends run them: one record each, as in `shaders/appearance/surface.wgsl`.
 
 use crate::appearance as wgsl;
-use crate::scene::Scene;
-use crate::spec::{Color, Filter, UvMapping};
+use crate::scene::{Aabb, Scene};
+use crate::spec::{Color, Filter, Quantity, UvMapping};
+use crate::view::View;
 
 /// One appearance filter with its parameters; the layout of WGSL's `Op`.
 #[repr(C)]
@@ -10,7 +11,7 @@ use crate::spec::{Color, Filter, UvMapping};
 pub struct Op {
     /// An `OP_...` constant of the shaders.
     pub kind: u32,
-    /// Into the plan's filter textures.
+    /// Of the filter's image or colour map.
     pub texture: u32,
     pub flags: u32,
     /// Not 0: it stands before a filter of its lens that moves content, so it acts where that takes it from.
@@ -20,79 +21,62 @@ pub struct Op {
     pub c: [f32; 4],
 }
 
+/// The records of all lenses and rules while they are gathered.
+pub(super) struct Ops<'a> {
+    pub scene: &'a Scene,
+    pub view: &'a View,
+    pub list: Vec<Op>,
+    /// Names of the numbers at vertices that they read: [`super::Plan::channels`].
+    pub channels: Vec<String>,
+}
+
+const NONE: [f32; 4] = [0.0; 4];
+
 impl Op {
     fn new(kind: naga_rust_rt::Scalar<u32>, a: [f32; 4], b: [f32; 4]) -> Self {
-        Self { kind: kind.0, texture: 0, flags: 0, inner: 0, a, b, c: [0.0; 4] }
-    }
-
-    /// Appends the records of a list's appearance filters; their places.
-    pub fn append(filters: &[Filter], scene: &Scene, ops: &mut Vec<Self>) -> std::ops::Range<usize> {
-        let first = ops.len();
-        let last_mover = filters.iter().rposition(Filter::moves);
-        for (place, filter) in filters.iter().enumerate() {
-            let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
-            ops.extend(Self::from_filter(filter, filter_texture(filter, scene)).map(|op| Self { inner, ..op }));
-        }
-        first..ops.len()
-    }
-
-    /// The record of an appearance filter; `None` for content filters, which act before any surface exists.
-    /// `texture` is the index of the filter's own texture, where it has one.
-    pub fn from_filter(filter: &Filter, texture: u32) -> Option<Self> {
-        let none = [0.0; 4];
-        let amount = |a: f32| [a, 0.0, 0.0, 0.0];
-        Some(match filter {
-            Filter::Erase { .. } | Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => return None,
-            Filter::Opacity { value } => Self::new(wgsl::OP_OPACITY, amount(*value), none),
-            Filter::Tint { color, amount: a } => Self::new(wgsl::OP_TINT, color.to_linear(), amount(*a)),
-            Filter::Grayscale { amount: a } => Self::new(wgsl::OP_GRAYSCALE, none, amount(*a)),
-            Filter::Invert { amount: a } => Self::new(wgsl::OP_INVERT, none, amount(*a)),
-            Filter::Unlit { color } => Self::new(wgsl::OP_UNLIT, none, none).colored(*color),
-            Filter::Normals => Self::new(wgsl::OP_NORMALS, none, none),
-            Filter::Wireframe { width, color, fill } => {
-                Self::new(wgsl::OP_WIREFRAME, none, [*width, *fill, 0.0, 0.0]).colored(*color)
-            }
-            Filter::Texture { uv, scale, .. } => Self {
-                texture,
-                flags: mapping(*uv).0,
-                ..Self::new(wgsl::OP_TEXTURE, [scale[0], scale[1], 0.0, 0.0], none)
-            },
-            Filter::Material { color, metallic, roughness, emissive } => Self {
-                flags: flag(color.is_some(), wgsl::MATERIAL_COLOR.0)
-                    | flag(metallic.is_some(), wgsl::MATERIAL_METALLIC.0)
-                    | flag(roughness.is_some(), wgsl::MATERIAL_ROUGHNESS.0)
-                    | flag(emissive.is_some(), wgsl::MATERIAL_EMISSIVE.0),
-                c: emissive.map_or(none, Color::to_linear),
-                ..Self::new(
-                    wgsl::OP_MATERIAL,
-                    color.map_or(none, Color::to_linear),
-                    [metallic.unwrap_or(0.0), roughness.unwrap_or(0.0), 0.0, 0.0],
-                )
-            },
-        })
+        Self { kind: kind.0, texture: 0, flags: 0, inner: 0, a, b, c: NONE }
     }
 
     fn colored(self, color: Option<Color>) -> Self {
         match color {
-            Some(color) => Self { a: color.to_linear(), flags: self.flags | wgsl::HAS_COLOR.0, ..self },
+            Some(color) => self.flagged(wgsl::HAS_COLOR.0, true).with_color(color),
             None => self,
         }
     }
 
+    fn with_color(self, color: Color) -> Self {
+        Self { a: color.to_linear(), ..self }
+    }
+
+    fn flagged(self, bit: u32, on: bool) -> Self {
+        Self { flags: self.flags | if on { bit } else { 0 }, ..self }
+    }
+
     /// Whether it does anything in a stage: 0 on surfaces before they are lit, 1 on lit colours, 2 on coverage.
-    pub fn acts_in(&self, stage: u32) -> bool {
-        // The alpha of a tint counts on the surface.
-        wgsl::op_stage(naga_rust_rt::Scalar(self.kind)) == stage || (stage == 0 && self.kind == wgsl::OP_TINT.0)
+    pub fn acts_in(&self, stage: usize) -> bool {
+        wgsl::FILTERS[self.kind as usize].stages[stage]
+    }
+
+    /// Whether it looks up a quantity of the surface.
+    pub fn reads_quantity(&self) -> bool {
+        self.flags >> 8 & 0xff != 0
+    }
+
+    /// Whether wires of nearer surfaces of its lens hide those of farther ones.
+    pub fn hides_lines(&self) -> bool {
+        self.kind == wgsl::OP_WIREFRAME.0 && self.flags & wgsl::HIDES_LINES.0 != 0
     }
 
     /// Whether a fragment under this filter may let through what lies behind it.
     pub fn may_be_translucent(&self) -> bool {
         let color_alpha = self.a[3] < 1.0;
+        let has_color = self.flags & wgsl::HAS_COLOR.0 != 0;
         match self.kind {
             k if k == wgsl::OP_OPACITY.0 => self.a[0] < 1.0,
-            k if k == wgsl::OP_WIREFRAME.0 => true,
-            k if k == wgsl::OP_TINT.0 => color_alpha,
-            k if k == wgsl::OP_UNLIT.0 => self.flags & wgsl::HAS_COLOR.0 != 0 && color_alpha,
+            k if k == wgsl::OP_GHOST.0 => self.b[0] > 0.0 || (has_color && color_alpha),
+            k if k == wgsl::OP_WIREFRAME.0 || k == wgsl::OP_POINTS.0 => true,
+            k if k == wgsl::OP_TINT.0 || k == wgsl::OP_HATCH.0 => color_alpha,
+            k if k == wgsl::OP_UNLIT.0 => has_color && color_alpha,
             k if k == wgsl::OP_MATERIAL.0 => {
                 (self.flags & wgsl::MATERIAL_COLOR.0 != 0 && color_alpha)
                     || (self.flags & wgsl::MATERIAL_EMISSIVE.0 != 0 && self.c[3] < 1.0)
@@ -102,15 +86,138 @@ impl Op {
     }
 }
 
-fn filter_texture(filter: &Filter, scene: &Scene) -> u32 {
-    match filter {
-        Filter::Texture { file, .. } => scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
-        _ => 0,
+impl Ops<'_> {
+    /// Appends the records of a list's appearance filters; their places.
+    pub fn append(&mut self, filters: &[Filter]) -> std::ops::Range<usize> {
+        let first = self.list.len();
+        let last_mover = filters.iter().rposition(Filter::moves);
+        for (place, filter) in filters.iter().enumerate() {
+            let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
+            if let Some(op) = self.record(filter) {
+                self.list.push(Op { inner, ..op });
+            }
+        }
+        first..self.list.len()
+    }
+
+    /// The record of an appearance filter; `None` for content filters, which act before any surface exists.
+    fn record(&mut self, filter: &Filter) -> Option<Op> {
+        let one = |a: f32| [a, 0.0, 0.0, 0.0];
+        Some(match filter {
+            Filter::Erase { .. } | Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => return None,
+            Filter::Opacity { value } => Op::new(wgsl::OP_OPACITY, one(*value), NONE),
+            Filter::Ghost { strength, color } => Op::new(wgsl::OP_GHOST, NONE, one(*strength)).colored(*color),
+            Filter::Tint { color, amount } => Op::new(wgsl::OP_TINT, color.to_linear(), one(*amount)),
+            Filter::Grayscale { amount } => Op::new(wgsl::OP_GRAYSCALE, NONE, one(*amount)),
+            Filter::Invert { amount } => Op::new(wgsl::OP_INVERT, NONE, one(*amount)),
+            Filter::Brightness { amount } => Op::new(wgsl::OP_BRIGHTNESS, NONE, one(*amount)),
+            Filter::Unlit { color } => Op::new(wgsl::OP_UNLIT, NONE, NONE).colored(*color),
+            Filter::Normals => Op::new(wgsl::OP_NORMALS, NONE, NONE),
+            Filter::FalseColor { quantity, colormap, range } => self.false_color(quantity, colormap, *range),
+            Filter::Contours { quantity, spacing, width, color } => {
+                self.contours(quantity, *spacing, *width).with_color(*color)
+            }
+            Filter::Toon { levels } => Op::new(wgsl::OP_TOON, NONE, one(*levels as f32)),
+            Filter::Hatch { spacing, width, color } => {
+                Op::new(wgsl::OP_HATCH, color.to_linear(), [*spacing, *width, 0.0, 0.0])
+            }
+            Filter::Wireframe { width, color, fill, hidden } => {
+                let lines = Op::new(wgsl::OP_WIREFRAME, NONE, [*width, *fill, 0.0, 0.0]);
+                lines.colored(*color).flagged(wgsl::HIDES_LINES.0, !hidden)
+            }
+            Filter::Points { size } => Op::new(wgsl::OP_POINTS, NONE, one(*size)),
+            Filter::Texture { file, uv, scale } => Op {
+                texture: self.scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
+                flags: mapping(*uv).0,
+                ..Op::new(wgsl::OP_TEXTURE, [scale[0], scale[1], 0.0, 0.0], NONE)
+            },
+            Filter::Material { color, metallic, roughness, emissive } => {
+                let values = [metallic.unwrap_or(0.0), roughness.unwrap_or(0.0), 0.0, 0.0];
+                let op = Op::new(wgsl::OP_MATERIAL, color.map_or(NONE, Color::to_linear), values);
+                Op { c: emissive.map_or(NONE, Color::to_linear), ..op }
+                    .flagged(wgsl::MATERIAL_COLOR.0, color.is_some())
+                    .flagged(wgsl::MATERIAL_METALLIC.0, metallic.is_some())
+                    .flagged(wgsl::MATERIAL_ROUGHNESS.0, roughness.is_some())
+                    .flagged(wgsl::MATERIAL_EMISSIVE.0, emissive.is_some())
+            }
+        })
+    }
+
+    fn false_color(&mut self, quantity: &Quantity, colormap: &str, range: Option<[f64; 2]>) -> Op {
+        let kind = match quantity {
+            Quantity::Slope => wgsl::OP_NORMALS,
+            Quantity::Depth => wgsl::OP_DEPTH,
+            Quantity::Height => wgsl::OP_HEIGHT,
+            Quantity::Curvature => wgsl::OP_CURVATURE,
+            Quantity::Attribute(_) => wgsl::OP_ATTRIBUTE,
+        };
+        let [low, high] = range.unwrap_or_else(|| self.fitted(quantity));
+        // A range without a length shows one colour, the low one.
+        let scale = if high > low { 1.0 / (high - low) } else { 0.0 };
+        let texture = self.scene.color_maps.get(colormap).copied().unwrap_or_default();
+        let op = self.reading(Op::new(kind, NONE, [low as f32, scale as f32, 0.0, 0.0]), quantity);
+        Op { texture, ..op.flagged(wgsl::MAPPED.0, true) }
+    }
+
+    fn contours(&mut self, quantity: &Quantity, spacing: Option<f64>, width: f32) -> Op {
+        let [low, high] = self.fitted(quantity);
+        let spacing = spacing.unwrap_or_else(|| round_spacing((high - low) / 10.0));
+        self.reading(Op::new(wgsl::OP_CONTOURS, NONE, [0.0, 0.0, spacing as f32, width]), quantity)
+    }
+
+    /// The same, told what it reads.
+    fn reading(&mut self, op: Op, quantity: &Quantity) -> Op {
+        let kind = match quantity {
+            Quantity::Slope => wgsl::QUANTITY_SLOPE,
+            Quantity::Depth => wgsl::QUANTITY_DEPTH,
+            Quantity::Height => wgsl::QUANTITY_HEIGHT,
+            Quantity::Curvature | Quantity::Attribute(_) => wgsl::QUANTITY_VERTEX,
+        };
+        let channel = quantity.value_name().map_or(0, |name| {
+            self.channels.iter().position(|known| known == name).unwrap_or_else(|| {
+                self.channels.push(name.to_owned());
+                self.channels.len() - 1
+            })
+        });
+        Op { flags: op.flags | kind.0 << 8 | (channel as u32) << 16, ..op }
+    }
+
+    /// The range of a quantity in the scene, or of the depths at which it is seen.
+    fn fitted(&self, quantity: &Quantity) -> [f64; 2] {
+        let bounds = self.scene.models[0].bounds();
+        match quantity {
+            Quantity::Slope => [-1.0, 1.0],
+            Quantity::Height if bounds.is_empty() => [0.0; 2],
+            Quantity::Height => [bounds.min.y, bounds.max.y],
+            Quantity::Depth => depths(self.view, &bounds),
+            Quantity::Curvature | Quantity::Attribute(_) => {
+                let range = quantity.value_name().and_then(|name| self.scene.value_ranges.get(name));
+                range.map_or([0.0; 2], |range| range.map(f64::from))
+            }
+        }
     }
 }
 
-fn flag(on: bool, bit: u32) -> u32 {
-    if on { bit } else { 0 }
+/// The depths of bounds between near and far.
+fn depths(view: &View, bounds: &Aabb) -> [f64; 2] {
+    if bounds.is_empty() {
+        return [view.near, view.far];
+    }
+    let corners = bounds.corners().map(|p| view.depth(p).clamp(view.near, view.far));
+    [corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+/// The nearest of 1, 2 and 5 times a power of ten; 1 for nothing.
+fn round_spacing(spacing: f64) -> f64 {
+    if spacing <= 0.0 || !spacing.is_finite() {
+        return 1.0;
+    }
+    let power = 10f64.powf(spacing.log10().floor());
+    let nearest = [1.0, 2.0, 5.0, 10.0].into_iter().min_by(|a, b| {
+        let away = |step: f64| (spacing / power / step).ln().abs();
+        away(*a).total_cmp(&away(*b))
+    });
+    nearest.unwrap_or(1.0) * power
 }
 
 fn mapping(uv: UvMapping) -> naga_rust_rt::Scalar<u32> {
@@ -128,17 +235,39 @@ fn mapping(uv: UvMapping) -> naga_rust_rt::Scalar<u32> {
 pub fn filter_name(filter: &Filter) -> &'static str {
     match filter {
         Filter::Wireframe { .. } => "wireframe",
+        Filter::Points { .. } => "points",
         Filter::Erase { .. } => "erase",
         Filter::Show(_) => "show",
         Filter::Magnify { .. } => "magnify",
         Filter::Displace { .. } => "displace",
         Filter::Opacity { .. } => "opacity",
+        Filter::Ghost { .. } => "ghost",
         Filter::Tint { .. } => "tint",
         Filter::Grayscale { .. } => "grayscale",
         Filter::Invert { .. } => "invert",
+        Filter::Brightness { .. } => "brightness",
         Filter::Unlit { .. } => "unlit",
         Filter::Material { .. } => "material",
         Filter::Texture { .. } => "texture",
-        Filter::Normals => "normals",
+        Filter::Normals | Filter::FalseColor { quantity: Quantity::Slope, .. } => "normals",
+        Filter::FalseColor { quantity: Quantity::Depth, .. } => "depth",
+        Filter::FalseColor { quantity: Quantity::Height, .. } => "height",
+        Filter::FalseColor { quantity: Quantity::Curvature, .. } => "curvature",
+        Filter::FalseColor { quantity: Quantity::Attribute(_), .. } => "attribute",
+        Filter::Contours { .. } => "contours",
+        Filter::Toon { .. } => "toon",
+        Filter::Hatch { .. } => "hatch",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spacings_are_round() {
+        for (spacing, round) in [(0.13, 0.1), (0.15, 0.2), (3.4, 5.0), (7.5, 10.0), (900.0, 1000.0), (0.0, 1.0)] {
+            assert!((round_spacing(spacing) / round - 1.0).abs() < 1e-12, "{spacing}: {}", round_spacing(spacing));
+        }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use super::op::Ops;
 use super::{Item, Lens, LensSet, Op, Plan, filter_name};
-use crate::scene::Scene;
 use crate::spec::{Condition, Filter, Spec};
 
 /// A rule. In stacks it stands at the rank [`Plan::rule_rank`], behind all lenses.
@@ -51,13 +51,13 @@ impl Test {
 }
 
 /// The rules of a spec in their order, their filters behind those of the lenses.
-pub(super) fn collect(spec: &Spec, scene: &Scene, lenses: &[Lens], ops: &mut Vec<Op>) -> Vec<Rule> {
+pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Vec<Rule> {
     let rule = |rule: &crate::spec::OverlapSpec| {
         let filters: Vec<Filter> = rule.filters.iter().map(|f| f.value.clone()).collect();
-        let own = Op::append(&filters, scene, ops);
+        let own = ops.append(&filters);
         Rule {
             when: Test::new(&rule.when.value, lenses),
-            translucent: ops[own.clone()].iter().any(Op::may_be_translucent),
+            translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             ops: own,
             filters,
         }

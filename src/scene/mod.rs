@@ -12,6 +12,7 @@ mod names;
 mod open;
 mod pose;
 mod textures;
+mod vertex_values;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
@@ -21,3 +22,5 @@ pub use model::*;
 pub use open::Scene;
 pub use pose::Transform;
 pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet, decode_table};
+pub use vertex_values::CURVATURE;
+pub(crate) use vertex_values::scene_factor;

@@ -1,5 +1,7 @@
 //! The plain data of one glTF file.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
 use super::{Animation, BoundsCache, Transform};
@@ -66,6 +68,9 @@ pub struct Primitive {
     pub uv: [Option<Vec<Vec2>>; 2],
     /// Linear-light colour and alpha, which multiply the material's.
     pub colors: Option<Vec<Vec4>>,
+    /// Other numbers at vertices, by name: the file's own attributes (`_NAME`; the length of those with several parts),
+    /// and [`super::CURVATURE`] where it has been asked for.
+    pub values: BTreeMap<String, Vec<f32>>,
     pub triangles: Vec<[u32; 3]>,
     /// Into [`Model::materials`].
     pub material: usize,

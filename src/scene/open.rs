@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
 use super::{MaterialRecord, Model, TextureSet, lens_meshes};
-use crate::InputError;
 use crate::lens::LensMeshes;
-use crate::spec::{Filter, Spec};
+use crate::spec::{At, Filter, Quantity, Spec, suggest};
+use crate::{InputError, color_map};
 
 /// The models of a spec with what they share: materials and textures in one table each.
 #[derive(Debug, Clone, Default)]
@@ -22,6 +23,10 @@ pub struct Scene {
     pub textures: TextureSet,
     /// The texture of each file that a `texture` filter names.
     pub filter_textures: BTreeMap<PathBuf, u32>,
+    /// The texture, one pixel high, of each colour map that a filter names.
+    pub color_maps: BTreeMap<String, u32>,
+    /// The fitted range of each vertex value that a filter shows.
+    pub value_ranges: BTreeMap<String, [f32; 2]>,
     /// The solids of `mesh` shapes.
     pub lens_meshes: LensMeshes,
 }
@@ -46,12 +51,7 @@ impl Scene {
             models.push(load(&path.value, None, &path.span)?);
         }
         let mut scene = Self::new(models, spec.scene.alternates.iter().map(|(name, _)| name.clone()).collect());
-        let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
-        for filter in filters {
-            if let Filter::Texture { file, .. } = &filter.value {
-                scene.add_filter_texture(&file.value).map_err(|e| e.or_at(&spec.source, file.span.clone()))?;
-            }
-        }
+        scene.prepare_filters(spec)?;
         let alternates = spec.scene.alternates.iter().map(|(_, path)| path.value.as_path());
         let mut known: BTreeMap<&Path, &Model> = alternates.zip(&scene.models[1..]).collect();
         if choice.is_none() {
@@ -75,6 +75,70 @@ impl Scene {
             materials.extend(model.materials.iter().map(|m| MaterialRecord::new(m, model, &mut textures)));
         }
         Self { models, alternates, materials, material_base, textures, ..Self::default() }
+    }
+
+    /// Reads and computes what the filters of a spec look up: images, colour maps, numbers at vertices. [`Scene::open`]
+    /// does; a scene made of models in memory needs it before a plan whose filters ask for such.
+    pub fn prepare_filters(&mut self, spec: &Spec) -> Result<(), InputError> {
+        let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
+        for filter in filters {
+            match &filter.value {
+                Filter::Texture { file, .. } => {
+                    self.add_filter_texture(&file.value).map_err(|e| e.or_at(&spec.source, file.span.clone()))?;
+                }
+                Filter::FalseColor { quantity, colormap, .. } => {
+                    self.add_color_map(colormap);
+                    self.add_values(quantity, spec)?;
+                }
+                Filter::Contours { quantity, .. } => self.add_values(quantity, spec)?,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn add_color_map(&mut self, name: &str) {
+        let Some(pixels) = color_map::colors(name) else { return };
+        let image = super::Image { name: name.into(), width: color_map::STEPS, height: 1, pixels };
+        let sampler =
+            super::Sampler { wrap: [super::Wrap::ClampToEdge; 2], mips: super::Mips::None, ..Default::default() };
+        let texture = self.textures.add(&image, true, sampler);
+        self.color_maps.insert(name.into(), texture);
+    }
+
+    fn add_values(&mut self, quantity: &Quantity, spec: &Spec) -> Result<(), InputError> {
+        let Some(name) = quantity.value_name() else { return Ok(()) };
+        if self.value_ranges.contains_key(name) {
+            return Ok(());
+        }
+        if name == CURVATURE {
+            self.models.iter_mut().for_each(add_curvature);
+        }
+        match (fitted_range(&self.models, name), quantity) {
+            (Some(range), _) => _ = self.value_ranges.insert(name.into(), range),
+            (None, Quantity::Attribute(name)) => return Err(self.no_attribute(name, spec)),
+            // Nothing is drawn, then.
+            (None, _) => _ = self.value_ranges.insert(name.into(), [0.0; 2]),
+        }
+        Ok(())
+    }
+
+    fn no_attribute(&self, name: &At<String>, spec: &Spec) -> InputError {
+        let meshes = self.models.iter().flat_map(|model| &model.meshes);
+        let mut known: Vec<&str> = meshes
+            .flat_map(|mesh| &mesh.primitives)
+            .flat_map(|primitive| primitive.values.keys())
+            .map(String::as_str)
+            .filter(|key| *key != CURVATURE)
+            .collect();
+        known.sort_unstable();
+        known.dedup();
+        let message = format!("no mesh of the scene has a vertex attribute `{}`", name.value);
+        let error = InputError::at(&spec.source, name.span.clone(), message);
+        match known[..] {
+            [] => error.help("its meshes have no attributes of their own, whose names begin with `_`"),
+            _ => error.help(suggest::help(&name.value, known)),
+        }
     }
 
     fn add_filter_texture(&mut self, path: &Path) -> Result<(), InputError> {

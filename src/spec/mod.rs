@@ -11,6 +11,7 @@ mod types;
 pub use color::Color;
 pub use pattern::Pattern;
 pub use range::NumberRange;
+pub(crate) use read::suggest;
 pub use shape::{Convex, MeshShape, Rotation, Shape};
 pub use types::*;
 

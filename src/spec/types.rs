@@ -217,11 +217,17 @@ impl Default for Glass {
 /// One filter with all its parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Filter {
-    /// `width` in pixels; `color` `None`: the surface's own; `fill`: opacity between the wires.
+    /// `width` in pixels; `color` `None`: the surface's own; `fill`: opacity between the wires; `hidden`: wires are seen
+    /// through nearer surfaces of the lens.
     Wireframe {
         width: f32,
         color: Option<Color>,
         fill: f32,
+        hidden: bool,
+    },
+    /// `size` in pixels.
+    Points {
+        size: f32,
     },
     /// Removes what matches; both lists empty: everything.
     Erase {
@@ -244,6 +250,11 @@ pub enum Filter {
     Opacity {
         value: f32,
     },
+    /// `color` `None`: the surface's own, and lit.
+    Ghost {
+        strength: f32,
+        color: Option<Color>,
+    },
     Tint {
         color: Color,
         amount: f32,
@@ -252,6 +263,9 @@ pub enum Filter {
         amount: f32,
     },
     Invert {
+        amount: f32,
+    },
+    Brightness {
         amount: f32,
     },
     /// `color` `None`: the surface's own.
@@ -271,7 +285,57 @@ pub enum Filter {
         uv: UvMapping,
         scale: [f32; 2],
     },
+    /// By direction: x, y, z as red, green, blue.
     Normals,
+    /// `range` `None`: fitted to the scene; `colormap`: one of [`crate::color_map::NAMES`].
+    FalseColor {
+        quantity: Quantity,
+        colormap: String,
+        range: Option<[f64; 2]>,
+    },
+    /// `spacing` in the quantity's units, `None`: fitted to the scene; `width` in pixels.
+    Contours {
+        quantity: Quantity,
+        spacing: Option<f64>,
+        width: f32,
+        color: Color,
+    },
+    /// Steps of light.
+    Toon {
+        levels: u32,
+    },
+    /// Pixels.
+    Hatch {
+        spacing: f32,
+        width: f32,
+        color: Color,
+    },
+}
+
+/// What is shown as false colour or contour lines.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Quantity {
+    /// The shading normal's part along the scene's up axis.
+    Slope,
+    /// Along the camera's forward axis, scene units.
+    Depth,
+    /// The scene's y.
+    Height,
+    /// Mean curvature, one over scene units.
+    Curvature,
+    /// A vertex attribute of the file, by name.
+    Attribute(At<String>),
+}
+
+impl Quantity {
+    /// The name among [`crate::scene::Primitive::values`], of what stands at vertices.
+    pub fn value_name(&self) -> Option<&str> {
+        match self {
+            Quantity::Curvature => Some(crate::scene::CURVATURE),
+            Quantity::Attribute(name) => Some(&name.value),
+            Quantity::Slope | Quantity::Depth | Quantity::Height => None,
+        }
+    }
 }
 
 impl Filter {

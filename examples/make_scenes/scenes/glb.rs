@@ -278,6 +278,8 @@ impl Glb {
             normal: (!normals.is_empty()).then(|| self.floats(&normals, "VEC3", Some(VERTICES))),
             texcoord: (!uv.is_empty()).then(|| self.floats(&uv, "VEC2", Some(VERTICES))),
             color: (!mesh.colors.is_empty()).then(|| self.colors(&mesh.colors)),
+            temperature: (!mesh.temperatures.is_empty())
+                .then(|| self.floats(&mesh.temperatures, "SCALAR", Some(VERTICES))),
         };
         PrimitiveJson { attributes, indices: self.indices(mesh), material }
     }

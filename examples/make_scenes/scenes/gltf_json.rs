@@ -130,6 +130,8 @@ pub struct Attributes {
     pub texcoord: Option<usize>,
     #[serde(rename = "COLOR_0", skip_serializing_if = "Option::is_none")]
     pub color: Option<usize>,
+    #[serde(rename = "_TEMPERATURE", skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<usize>,
 }
 
 #[derive(Serialize)]

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::det;
 
-/// An indexed triangle mesh. `normals`, `uv` and `colors` are empty or as long as `positions`.
+/// An indexed triangle mesh. All but the triangles are empty or as long as `positions`.
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
     pub positions: Vec<DVec3>,
@@ -12,6 +12,7 @@ pub struct Mesh {
     pub uv: Vec<DVec2>,
     /// Linear light and alpha.
     pub colors: Vec<[u8; 4]>,
+    pub temperatures: Vec<[f32; 1]>,
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -35,6 +36,7 @@ impl Mesh {
         self.normals.extend(other.normals);
         self.uv.extend(other.uv);
         self.colors.extend(other.colors);
+        self.temperatures.extend(other.temperatures);
         self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i + first)));
     }
 

@@ -106,6 +106,7 @@ pub fn quad(size: DVec2) -> Mesh {
         uv: corners.map(|(x, y)| DVec2::new(x + 0.5, 0.5 - y)).to_vec(),
         colors: Vec::new(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
     }
 }
 

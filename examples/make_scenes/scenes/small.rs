@@ -19,6 +19,7 @@ pub fn all() -> Vec<Generated> {
         Generated { name: "textured-quad.glb", bytes: textured_quad() },
         Generated { name: "lights.glb", bytes: lights() },
         Generated { name: "vertex-colors.glb", bytes: vertex_colors() },
+        Generated { name: "heat.glb", bytes: heat() },
         Generated { name: "cutout.glb", bytes: cutout() },
         Generated { name: "motion.glb", bytes: motion() },
     ]
@@ -189,6 +190,18 @@ fn vertex_colors() -> Vec<u8> {
     let mut look = plain("globe", 0xff_ffff);
     look.color[0] = 0.5;
     add(&mut glb, look, &globe, dvec3(0.7, 0.0, 0.0));
+    glb.finish()
+}
+
+/// A ball with a temperature at each vertex, hottest to the front and the right, on a plate that has none.
+fn heat() -> Vec<u8> {
+    let mut glb = Glb::default();
+    add(&mut glb, plain("plate", 0x8a_94a0), &cuboid(dvec3(0.0, -0.75, 0.0), dvec3(2.2, 0.1, 1.6)), DVec3::ZERO);
+    let mut globe = ball(0.7, 48, 24);
+    let hot = dvec3(0.4, 0.3, 0.6);
+    let heat = |p: &DVec3| 20.0 + 80.0 / (1.0 + 4.0 * (*p - hot).length_squared());
+    globe.temperatures = globe.positions.iter().map(|p| [heat(p) as f32]).collect();
+    add(&mut glb, plain("ball", 0xd8_d4cc), &globe, DVec3::ZERO);
     glb.finish()
 }
 

@@ -1,5 +1,7 @@
 //! Vertex attributes of one primitive, made whole: as many as positions, finite, unit where they must be.
 
+use std::collections::BTreeMap;
+
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Primitive, Semantic};
@@ -122,6 +124,34 @@ impl<'f> Attributes<'f> {
         };
         Ok(Some(colors))
     }
+}
+
+impl Attributes<'_> {
+    /// The attributes of the file's own, whose names begin with `_`: one number each, the length of those with several.
+    pub fn values(&self, count: usize, warnings: &mut Vec<String>) -> Result<BTreeMap<String, Vec<f32>>, InputError> {
+        let mut all = BTreeMap::new();
+        for semantic in self.json.attributes.keys() {
+            let Checked::Valid(semantic @ Semantic::Extras(_)) = semantic else { continue };
+            let Some(accessor) = self.accessor(semantic.clone()) else { continue };
+            let accessor = accessor?;
+            let values = match accessor.kind {
+                Type::Scalar => self.read::<1>(&accessor, count, false, warnings)?.into_flattened(),
+                Type::Vec2 => lengths(self.read::<2>(&accessor, count, false, warnings)?),
+                Type::Vec3 => lengths(self.read::<3>(&accessor, count, false, warnings)?),
+                Type::Vec4 => lengths(self.read::<4>(&accessor, count, false, warnings)?),
+                _ => {
+                    warnings.push(format!("{}: attribute {} is a matrix, left out", self.place, semantic.to_string()));
+                    continue;
+                }
+            };
+            all.insert(semantic.to_string(), values);
+        }
+        Ok(all)
+    }
+}
+
+fn lengths<const N: usize>(values: Vec<[f32; N]>) -> Vec<f32> {
+    values.into_iter().map(|parts| parts.iter().map(|x| x * x).sum::<f32>().sqrt()).collect()
 }
 
 /// Area-weighted mean of the adjoining triangles; a vertex without any area points along +z.

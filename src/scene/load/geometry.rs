@@ -88,6 +88,7 @@ fn primitive(
         tangents: attributes.tangents(normals.as_deref(), warnings)?,
         uv: [attributes.uv(0, count, warnings)?, attributes.uv(1, count, warnings)?],
         colors: attributes.colors(count, warnings)?,
+        values: attributes.values(count, warnings)?,
         // Without a material: glTF's default one, which stands last.
         material: json.material.map_or(file.root().materials.len(), |m| m.value()),
         positions,

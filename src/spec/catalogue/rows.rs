@@ -2,11 +2,14 @@
 
 use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
 use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
-use super::ParamKind::{Bool, Choice, Color, File, FreeTable, Interval, Number, NumberOrPair, Patterns, Text, Vector};
+use super::ParamKind::{
+    Bool, Choice, Color, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text, Vector,
+};
 use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::NumberRange;
 
 const PIXELS: ParamKind = Number(NumberRange::closed(0.0, 1000.0));
+const LINE_PIXELS: ParamKind = Number(NumberRange::closed(1.0, 1000.0));
 const UNIT: ParamKind = Number(NumberRange::UNIT);
 const OWN: ParamDefault = Meaning("the surface's own");
 const FITTED: ParamDefault = Meaning("fitted to what is seen");
@@ -37,29 +40,29 @@ const fn mover(row: FilterRow) -> FilterRow {
 /// All filters, in the order of the format's table.
 pub const FILTERS: &[FilterRow] = &[
     built("wireframe", Coverage, "draws triangle edges, anti-aliased", WIREFRAME),
-    planned("points", Coverage, "draws vertices as discs", POINTS),
+    built("points", Coverage, "draws vertices as discs", POINTS),
     built("erase", Content, "removes what it matches", ERASE),
     built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
     planned("lod", Content, "shows a simplified version", LOD),
     mover(built("magnify", Content, "enlarges what is inside", MAGNIFY)),
     mover(built("displace", Content, "moves matched nodes", DISPLACE)),
     built("opacity", Surface, "multiplies the opacity", OPACITY),
-    planned("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
+    built("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
     built("tint", Colour, "mixes a colour in", TINT),
     built("grayscale", Colour, "takes the colour out", GRAYSCALE),
     built("invert", Colour, "inverts the colour", INVERT),
-    planned("brightness", Colour, "multiplies the brightness", BRIGHTNESS),
+    built("brightness", Colour, "multiplies the brightness", BRIGHTNESS),
     built("unlit", Surface, "no lighting", UNLIT),
     built("material", Surface, "overrides the material", MATERIAL),
     built("texture", Surface, "replaces the base colour texture", TEXTURE),
     built("normals", Surface, "false colour by the surface normal", NORMALS),
-    planned("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
-    planned("height", Surface, "false colour by height", FALSE_COLOR),
-    planned("curvature", Surface, "false colour by curvature", FALSE_COLOR),
-    planned("attribute", Surface, "false colour by a vertex attribute", ATTRIBUTE),
-    planned("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
-    planned("toon", Surface, "quantised lighting", &[]),
-    planned("hatch", Surface, "hatched lighting", &[]),
+    built("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
+    built("height", Surface, "false colour by height", FALSE_COLOR),
+    built("curvature", Surface, "false colour by curvature", FALSE_COLOR),
+    built("attribute", Surface, "false colour by a vertex attribute", ATTRIBUTE),
+    built("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
+    built("toon", Surface, "light in a few flat steps", TOON),
+    built("hatch", Surface, "light as pen strokes", HATCH),
     planned("edges", Screen, "silhouettes, creases and region borders", EDGES),
     planned("blur", Screen, "blurs, to push context back", BLUR),
     planned("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
@@ -70,7 +73,7 @@ const WIREFRAME: &[Param] = &[
     param("width", PIXELS, Num(1.0), "of the lines, pixels"),
     param("color", Color, OWN, "of the lines"),
     param("fill", UNIT, Num(0.0), "opacity between the lines"),
-    later(param("hidden", Bool, Yes(true), "draw the lines that surfaces would hide")),
+    param("hidden", Bool, Yes(true), "draw the lines that nearer surfaces of the lens would hide"),
 ];
 const POINTS: &[Param] = &[param("size", PIXELS, Num(3.0), "of the discs, pixels")];
 const ERASE: &[Param] = &[
@@ -98,8 +101,10 @@ const DISPLACE: &[Param] = &[
     ),
 ];
 const OPACITY: &[Param] = &[param("value", UNIT, Num(0.5), "factor")];
-const GHOST: &[Param] =
-    &[param("strength", UNIT, Num(1.0), "how clear it gets face on"), param("color", Color, OWN, "of the surface")];
+const GHOST: &[Param] = &[
+    param("strength", UNIT, Num(1.0), "how clear it gets face on"),
+    param("color", Color, OWN, "that it glows in, unlit"),
+];
 const TINT: &[Param] =
     &[param("color", Color, Hex("#3fa7ff"), "what is mixed in"), param("amount", UNIT, Num(0.5), "how much")];
 const GRAYSCALE: &[Param] = &[param("amount", UNIT, Num(1.0), "how much")];
@@ -120,22 +125,40 @@ const TEXTURE: &[Param] = &[
 ];
 const UV: &[&str] = &["mesh", "planar-x", "planar-y", "planar-z", "box", "sphere"];
 const NORMALS: &[Param] = &[
-    later(param("colormap", Text, Meaning("x, y, z as red, green, blue"), "colours of the values")),
-    later(param("range", Interval, Meaning("-1 to 1"), "values at the ends of the colours")),
+    param(
+        "colormap",
+        MAPS,
+        Meaning("x, y, z as red, green, blue"),
+        "colours of the slope: 1 level, 0 upright, -1 from below",
+    ),
+    param("range", Interval, Meaning("-1 to 1"), "slopes at the ends of the colours"),
 ];
+const MAPS: ParamKind = Choice(crate::color_map::NAMES);
 const FALSE_COLOR: &[Param] = &[
-    param("colormap", Text, Word("viridis"), "colours of the values"),
+    param("colormap", MAPS, Word("viridis"), "colours of the values"),
     param("range", Interval, FITTED, "values at the ends of the colours"),
 ];
 const ATTRIBUTE: &[Param] = &[
     param("name", Text, Required, "of the attribute, such as _TEMPERATURE"),
-    param("colormap", Text, Word("viridis"), "colours of the values"),
+    param("colormap", MAPS, Word("viridis"), "colours of the values"),
     param("range", Interval, FITTED, "values at the ends of the colours"),
 ];
 const CONTOURS: &[Param] = &[
-    param("spacing", Number(NumberRange::POSITIVE), Meaning("a tenth of the range"), "between lines, scene units"),
+    param(
+        "spacing",
+        Number(NumberRange::POSITIVE),
+        Meaning("about a tenth of the scene's range"),
+        "between lines, in the quantity's units",
+    ),
     param("width", PIXELS, Num(1.0), "of the lines, pixels"),
-    param("quantity", Text, Word("height"), "what the lines are of"),
+    param("quantity", Text, Word("height"), "height, depth, curvature, or a vertex attribute such as _TEMPERATURE"),
+    param("color", Color, Hex("#1a1a1a"), "of the lines"),
+];
+const TOON: &[Param] = &[param("levels", Integer(2, 16), Num(3.0), "steps from dark to full light")];
+const HATCH: &[Param] = &[
+    param("spacing", LINE_PIXELS, Num(6.0), "between lines, pixels"),
+    param("width", PIXELS, Num(1.5), "of the lines, pixels"),
+    param("color", Color, Hex("#1a1a1a"), "of the lines"),
 ];
 const EDGES: &[Param] = &[
     param("color", Color, Hex("#000000"), "of the lines"),

@@ -11,7 +11,7 @@ use super::table::{entries, only_entry};
 use super::{color, later};
 use crate::InputError;
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Color, Filter, NumberRange, Pattern, ShowWhat, UvMapping};
+use crate::spec::{At, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -194,6 +194,21 @@ impl<'a> Params<'a> {
         }
     }
 
+    fn boolean(&self, name: &str) -> Option<bool> {
+        match self.get(name)? {
+            Value::Bool(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// The two ends of a range.
+    fn range(&self, name: &str) -> Option<[f64; 2]> {
+        match self.get(name)? {
+            Value::Pair(range) => Some(*range),
+            _ => None,
+        }
+    }
+
     fn path(&self, name: &str) -> Option<At<PathBuf>> {
         match self.get(name)? {
             Value::File(path) => Some(path.clone()),
@@ -266,7 +281,17 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
         "unlit" => Some(Filter::Unlit { color: params.color("color") }),
         "material" => Some(material(params)),
         "texture" => texture(params),
-        "normals" => Some(Filter::Normals),
+        "normals" => Some(normals(params)?),
+        "points" => params.number("size").map(|size| Filter::Points { size }),
+        "ghost" => params.number("strength").map(|strength| Filter::Ghost { strength, color: params.color("color") }),
+        "brightness" => params.number("amount").map(|amount| Filter::Brightness { amount }),
+        "depth" => false_color(params, Quantity::Depth),
+        "height" => false_color(params, Quantity::Height),
+        "curvature" => false_color(params, Quantity::Curvature),
+        "attribute" => params.text("name").and_then(|name| false_color(params, Quantity::Attribute(name))),
+        "contours" => Some(contours(params)?),
+        "toon" => params.number("levels").map(|levels| Filter::Toon { levels: levels as u32 }),
+        "hatch" => hatch(params),
         _ => None,
     };
     filter.ok_or_else(|| params.error(format!("filter `{}` cannot be made from its catalogue row", row.name)))
@@ -277,6 +302,7 @@ fn wireframe(params: &Params) -> Option<Filter> {
         width: params.number("width")?,
         color: params.color("color"),
         fill: params.number("fill")?,
+        hidden: params.boolean("hidden")?,
     })
 }
 
@@ -311,6 +337,47 @@ fn material(params: &Params) -> Filter {
         roughness: params.number("roughness"),
         emissive: params.color("emissive"),
     }
+}
+
+fn normals(params: &Params) -> Result<Filter, InputError> {
+    match (params.text("colormap"), params.range("range")) {
+        (None, None) => Ok(Filter::Normals),
+        (None, Some(_)) => {
+            let message = "`range` of filter `normals` needs a `colormap`".to_owned();
+            Err(params.error(message).help("write { normals = { colormap = \"viridis\", range = [0, 1] } }"))
+        }
+        (Some(colormap), range) => {
+            let range = range.or(Some([-1.0, 1.0]));
+            Ok(Filter::FalseColor { quantity: Quantity::Slope, colormap: colormap.value, range })
+        }
+    }
+}
+
+fn false_color(params: &Params, quantity: Quantity) -> Option<Filter> {
+    Some(Filter::FalseColor { quantity, colormap: params.text("colormap")?.value, range: params.range("range") })
+}
+
+fn contours(params: &Params) -> Result<Filter, InputError> {
+    let missing = || params.error("filter `contours` cannot be made from its catalogue row".to_owned());
+    let quantity = params.text("quantity").ok_or_else(missing)?;
+    let quantity = match quantity.value.as_str() {
+        "height" => Quantity::Height,
+        "depth" => Quantity::Depth,
+        "curvature" => Quantity::Curvature,
+        name if name.starts_with('_') => Quantity::Attribute(quantity),
+        other => {
+            let message = format!("there is no quantity `{other}`");
+            return Err(InputError::at(params.file.source, quantity.span, message)
+                .help("write height, depth, curvature, or a vertex attribute of the file, which begins with `_`"));
+        }
+    };
+    let (width, color) = params.number("width").zip(params.color("color")).ok_or_else(missing)?;
+    Ok(Filter::Contours { quantity, spacing: params.double("spacing"), width, color })
+}
+
+fn hatch(params: &Params) -> Option<Filter> {
+    let [spacing, width] = [params.number("spacing")?, params.number("width")?];
+    Some(Filter::Hatch { spacing, width, color: params.color("color")? })
 }
 
 fn texture(params: &Params) -> Option<Filter> {

@@ -16,5 +16,5 @@ mod number;
 mod overlap;
 mod scene;
 mod shape;
-mod suggest;
+pub(crate) mod suggest;
 mod table;
