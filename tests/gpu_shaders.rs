@@ -31,6 +31,7 @@ const LITTLE: Needs = Needs {
     quantities: false,
     hidden_lines: false,
     channels: 0,
+    screen: false,
 };
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const TWO_WORDS_OF_LAYERS: Needs = Needs { layers: true, ..TWO_WORDS };
@@ -54,6 +55,7 @@ const MOST: Needs = Needs {
     quantities: true,
     hidden_lines: true,
     channels: 3,
+    screen: true,
 };
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 20;
@@ -201,6 +203,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             after_key,
             after_item,
             eye,
+            picture_scale,
             by_pixel,
             translucent,
             passed

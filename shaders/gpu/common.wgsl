@@ -69,7 +69,9 @@ struct Frame {
     after_key: u32,
     after_item: u32,
     // Of the eye: world space.
-    eye: vec4f,
+    eye: vec3f,
+    // Two over the picture's height, at depth 1 for a perspective camera.
+    picture_scale: f32,
     // Lenses that test every fragment; lenses that may make one translucent.
     by_pixel: array<vec4u, 3>,
     translucent: array<vec4u, 3>,

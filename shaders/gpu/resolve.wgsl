@@ -1,7 +1,8 @@
 // Composites each pixel's fragments and lens surfaces front to back, exactly, however many there are, and puts the mean
 // of the samples over the background, as straight alpha in sRGB.
 
-// Premultiplied linear colour, summed over the samples; only where there are several.
+// Premultiplied linear colour: summed over the samples, where there are several; or that of one, for filters of the
+// screen.
 @group(2) @binding(4) var<storage, read_write> accumulated: array<vec4f>;
 
 // A corner of a tile: those that lenses touch, and the others, are drawn by shaders that can do no more than they need.
@@ -83,16 +84,10 @@ fn resolve(@builtin(position) position: vec4f) -> @location(0) vec4f {
     return finished(sum / f32(frame.samples));
 }
 
-fn finished(front: vec4f) -> vec4f {
-    let back = vec4f(frame.background.rgb, 1.0) * frame.background.a;
-    let sum = front + back * (1.0 - front.a);
-    if sum.a <= 0.0 {
-        return vec4f(0.0);
+// The colour of one sample, for the filters of the screen (`screen.wgsl`), which come before samples are summed.
+@compute @workgroup_size(8, 8)
+fn resolve_sample(@builtin(global_invocation_id) id: vec3u) {
+    if all(id.xy < frame.window_size) {
+        accumulated[id.y * frame.window_size.x + id.x] = composited(id.xy);
     }
-    let straight = sum.rgb / sum.a;
-    if frame.target_is_srgb != 0u {
-        return vec4f(straight, sum.a);
-    }
-    let encoded = vec3f(srgb_from_linear(straight.x), srgb_from_linear(straight.y), srgb_from_linear(straight.z));
-    return vec4f(encoded, sum.a);
 }

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec2, Vec3, Vec4};
 use naga_rust_rt as rt;
 
 use crate::appearance as wgsl;
-use crate::plan::{GlassRecord, LightRecord, Op};
+use crate::plan::{GlassRecord, LightRecord};
 
 pub fn v2(v: Vec2) -> rt::Vec2<f32> {
     rt::Vec2::new(v.x, v.y)
@@ -36,18 +36,6 @@ pub fn g3(v: rt::Vec3<f32>) -> Vec3 {
 
 pub fn g4(v: rt::Vec4<f32>) -> Vec4 {
     Vec4::new(v.x, v.y, v.z, v.w)
-}
-
-pub fn op(op: &Op) -> wgsl::Op {
-    wgsl::Op {
-        kind: op.kind,
-        texture: op.texture,
-        flags: op.flags,
-        inner: op.inner,
-        a: a4(op.a),
-        b: a4(op.b),
-        c: a4(op.c),
-    }
 }
 
 pub fn light(light: &LightRecord) -> wgsl::Light {

@@ -7,6 +7,7 @@ mod glass;
 mod intersect;
 mod pixel;
 mod render;
+mod screen;
 mod shade;
 mod texture;
 

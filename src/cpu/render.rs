@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::block::Block;
 use super::pixel::{Scratch, Tracer};
+use super::screen::{self, Plane};
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, RegionTable};
 use crate::lens::{LayerStart, PixelRect, RayLayers};
@@ -12,6 +13,9 @@ use crate::pick::Pick;
 use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
 use crate::scene::Scene;
+
+/// Rows of a picture whose samples are kept at once, for filters of the screen.
+const BAND: u32 = 128;
 
 /// Samples along each side of a block, about.
 const BLOCK: u32 = 16;
@@ -36,6 +40,9 @@ struct TileResult {
     centers: Vec<Center>,
 }
 
+/// The colour of a sample, and what is visible at it.
+type SampleSeen = (Vec4, Option<Visible>);
+
 /// What the AOVs keep of a pixel's centre.
 struct Center {
     layers: u16,
@@ -51,6 +58,10 @@ impl<'a> Renderer<'a> {
     /// pixels of each finished tile, from any thread.
     pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
         let size = self.plan.view.size;
+        if !self.plan.screen_steps().is_empty() {
+            let pixels = self.screen_filtered(done);
+            return Frame { size, pixels, aovs: aovs.then(|| self.maps(&|_| ())) };
+        }
         let tiles = self.tiles(Wanted { colors: true, maps: aovs }, done);
         let mut pixels = vec![[0; 4]; size[0] as usize * size[1] as usize];
         for tile in &tiles {
@@ -97,6 +108,61 @@ impl<'a> Renderer<'a> {
         }
         maps.table = table.table;
         maps
+    }
+
+    /// The picture, band by band: filters of the screen work on each sample of all pixels of a band and of those that
+    /// they reach around it.
+    fn screen_filtered(&self, done: &(dyn Fn(u64) + Sync)) -> Vec<[u8; 4]> {
+        let [width, height] = self.plan.view.size;
+        let reach = self.plan.screen_reach();
+        let mut pixels = Vec::new();
+        for first in (0..height).step_by(BAND as usize) {
+            let last = (first + BAND).min(height);
+            let around = PixelRect {
+                min: [0, first.saturating_sub(reach)],
+                max: [width, last.saturating_add(reach).min(height)],
+            };
+            let planes = self.planes(around);
+            let inner = PixelRect { min: [0, first], max: [width, last] };
+            let sums = screen::filtered(self.plan, planes, &inner);
+            let samples = self.plan.samples as f32;
+            pixels.extend(sums.into_iter().map(|sum| self.finish(sum / samples)));
+            done(inner.area());
+        }
+        pixels
+    }
+
+    /// What each sample of a rectangle's pixels sees, a plane for each sample of a pixel.
+    fn planes(&self, rect: PixelRect) -> Vec<Plane> {
+        let side = self.samples_along();
+        let mut planes: Vec<Plane> = (0..side * side).map(|sample| Plane::new(rect, sample, side)).collect();
+        let shift = |tile: PixelRect| PixelRect {
+            min: [0, 1].map(|axis| tile.min[axis] + rect.min[axis]),
+            max: [0, 1].map(|axis| tile.max[axis] + rect.min[axis]),
+        };
+        let size = [0, 1].map(|axis| rect.max[axis] - rect.min[axis]);
+        let traced: Vec<(PixelRect, Vec<SampleSeen>)> = tiles(size, (BLOCK / side).max(1))
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, tile| {
+                let tile = shift(tile);
+                let (block, ranks) = (Block { rect: tile, side }, self.ranks(&tile));
+                self.tracer.trace(&block, &ranks, scratch);
+                let samples = pixels_of(&tile).flat_map(|at| block.samples_of(at.into()));
+                let mut see = |sample| {
+                    let color = self.tracer.color(sample, &ranks, scratch);
+                    (color, self.tracer.report(sample, scratch).visible)
+                };
+                (tile, samples.map(&mut see).collect())
+            })
+            .collect();
+        for (tile, samples) in traced {
+            for ((x, y), seen) in pixels_of(&tile).zip(samples.chunks_exact(planes.len())) {
+                for (plane, (color, visible)) in planes.iter_mut().zip(seen) {
+                    plane.put(self.plan, [x, y], *color, visible);
+                }
+            }
+        }
+        planes
     }
 
     fn tiles(&self, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Vec<TileResult> {

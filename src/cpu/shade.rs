@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
-use super::convert::{a4, g2, g3, g4, light, op, v2, v3, v4};
+use super::convert::{a4, g2, g3, g4, light, v2, v3, v4};
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::Fragment;
-use crate::plan::{Instance, Item, LensSet, Plan};
+use crate::plan::{Instance, Item, LensSet, Op, Plan};
 use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
@@ -105,7 +105,7 @@ impl<'a> Shader<'a> {
             forward: plan.view.forward.as_vec3(),
             scene,
             plan,
-            ops: plan.ops.iter().map(op).collect(),
+            ops: plan.ops.iter().map(Op::shader).collect(),
             lights: plan.lighting.lights.iter().map(|l| light(&l.around(plan.view.eye))).collect(),
             up: plan.lighting.up,
             transforms,

@@ -8,6 +8,7 @@ pub struct Layouts {
     pub layers: wgpu::BindGroupLayout,
     pub visibility: wgpu::BindGroupLayout,
     pub resolve: wgpu::BindGroupLayout,
+    pub screen: wgpu::BindGroupLayout,
 }
 
 /// What a binding holds.
@@ -40,6 +41,12 @@ impl Layouts {
             layers: layout(device, "layers", compute | fragment, &[ReadWrite, ReadWrite]),
             visibility: layout(device, "visibility", fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
             resolve: layout(device, "resolve", compute | fragment, &[Read, Read, Read, IdTexture, ReadWrite]),
+            screen: layout(
+                device,
+                "screen",
+                compute | fragment,
+                &[Read, ReadWrite, ReadWrite, ReadWrite, Record, ReadWrite],
+            ),
         }
     }
 }

@@ -7,7 +7,7 @@ use super::records::{FrameRecord, all_words, extended};
 use super::tiles::Tiles;
 use super::{Engine, Window};
 use crate::plan::{LensSet, Plan};
-use crate::view::Projection;
+use crate::view::{Projection, View};
 
 /// One pass of the whole pipeline over a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +74,14 @@ pub struct FrameShape<'a> {
     pub after: Option<Place>,
 }
 
+/// Half the picture's height: at depth 1 for a perspective camera.
+fn half_height(view: &View) -> f64 {
+    match view.projection {
+        Projection::Perspective { tan_half_y } => tan_half_y,
+        Projection::Orthographic { half_height } => half_height,
+    }
+}
+
 impl FrameShape<'_> {
     /// The record of one sample and layer.
     pub fn record(&self, sample: &Sample, layer: u32) -> FrameRecord {
@@ -112,7 +120,8 @@ impl FrameShape<'_> {
             after_depth: self.after.map_or(0.0, |place| place.depth),
             after_key: self.after.map_or(u32::MAX, |place| place.key),
             after_item: self.after.map_or(0, |place| place.item),
-            eye: extended(view.eye),
+            eye: view.eye.as_vec3().to_array(),
+            picture_scale: (1.0 / half_height(view)) as f32,
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
             passed: all_words(&self.after.map_or(LensSet::EMPTY, |place| place.passed)),
@@ -125,11 +134,7 @@ impl FrameShape<'_> {
         let view = &self.plan.view;
         let double = |v: [u32; 2]| DVec2::new(f64::from(v[0]), f64::from(v[1]));
         let (whole, window, min) = (double(view.size), double(self.window.size), double(self.window.min));
-        let half = match view.projection {
-            Projection::Perspective { tan_half_y } => tan_half_y,
-            Projection::Orthographic { half_height } => half_height,
-        };
-        let picture = DVec2::new(whole.y / whole.x, 1.0) / half;
+        let picture = DVec2::new(whole.y / whole.x, 1.0) / half_height(view);
         let shift = (whole + 1.0 - 2.0 * sample - 2.0 * min) / window - 1.0;
         (picture * whole / window, DVec2::new(shift.x, -shift.y))
     }

@@ -171,13 +171,15 @@ impl Headless {
         timings: &mut Option<Timings>,
         picture: &mut Picture,
     ) -> Result<(), Error> {
+        // Filters of the screen look beyond the window.
+        let drawn = window.grown(plan.screen_reach(), &picture.part);
         loop {
             let start = Instant::now();
-            let job = renderer.prepare(&self.device, scene, plan, window, options)?;
+            let job = renderer.prepare(&self.device, scene, plan, drawn, options)?;
             if let Some(timings) = timings {
                 timings.prepare += start.elapsed().as_secs_f64();
             }
-            let needed = self.draw(plan, &job, timings, picture)?;
+            let needed = self.draw(plan, &job, &window, timings, picture)?;
             if job.room.holds(needed) {
                 return Ok(());
             }
@@ -188,11 +190,12 @@ impl Headless {
         }
     }
 
-    /// Draws a window into the picture and says how much room it needed; where it had less, the picture stays as it is.
+    /// Draws at least a window into the picture and says how much room it needed; where it had less, the picture stays as it is.
     fn draw(
         &self,
         plan: &Plan,
         job: &Job,
+        window: &Window,
         timings: &mut Option<Timings>,
         picture: &mut Picture,
     ) -> Result<Room, Error> {
@@ -213,13 +216,14 @@ impl Headless {
         self.queue.submit([encoder.finish()]);
         let needed = Room::needed(&counts.bytes(&self.device)?);
         if job.room.holds(needed) {
-            picture.store(&job.window, &pixels.bytes(&self.device)?);
+            picture.store(window, &job.window, &pixels.bytes(&self.device)?);
             if let (Some(aovs), Some(maps)) = (&mut picture.aovs, maps) {
                 aov::store(
                     aovs,
                     &mut picture.table,
                     plan,
                     &picture.part,
+                    window,
                     &job.window,
                     job.words,
                     &maps.bytes(&self.device)?,
@@ -301,13 +305,16 @@ impl Stages<'_> {
 }
 
 impl Picture {
-    /// Puts a window's rows where they belong.
-    fn store(&mut self, window: &Window, bytes: &[u8]) {
-        let row = row_bytes(window.size[0]) as usize;
+    /// Puts a window's rows where they belong; `drawn`: the window that the bytes are of, which holds it.
+    fn store(&mut self, window: &Window, drawn: &Window, bytes: &[u8]) {
+        let row = row_bytes(drawn.size[0]) as usize;
         let length = window.size[0] as usize;
-        for (y, source) in (0u32..).zip(bytes.chunks_exact(row)) {
+        let first = 4 * (window.min[0] - drawn.min[0]) as usize;
+        let rows = bytes.chunks_exact(row).skip((window.min[1] - drawn.min[1]) as usize);
+        for (y, source) in (0..window.size[1]).zip(rows) {
             let start = self.part.place([window.min[0], window.min[1] + y]);
-            self.pixels[start..start + length].copy_from_slice(bytemuck::cast_slice(&source[..4 * length]));
+            self.pixels[start..start + length]
+                .copy_from_slice(bytemuck::cast_slice(&source[first..first + 4 * length]));
         }
     }
 }

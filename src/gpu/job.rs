@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::draws::Draw;
 use super::frame::Sample;
+use super::screen_job::ScreenJob;
 use super::targets::Targets;
 use super::tiles::{DISPATCH_WIDTH, Tiles};
 use super::{Needs, Room, Window};
@@ -29,7 +30,9 @@ pub struct Job {
     pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub compute: ComputeSteps,
-    pub resolve: Resolve,
+    pub resolve: ResolvePipelines,
+    /// Filters of the screen, where there are some.
+    pub screen: Option<ScreenJob>,
     pub targets: Arc<Targets>,
     pub groups: Groups,
 }
@@ -51,13 +54,17 @@ pub struct Groups {
     pub visibility: wgpu::BindGroup,
     pub resolve: wgpu::BindGroup,
     pub maps: Option<wgpu::BindGroup>,
+    /// What is visible at each sample, for filters of the screen.
+    pub screen_maps: Option<wgpu::BindGroup>,
 }
 
-/// What composites the pixels of tiles that lenses touch, and those of all others.
+/// What composites pixels.
 #[derive(Debug)]
-pub struct Resolve {
-    pub inside: wgpu::RenderPipeline,
-    pub outside: wgpu::RenderPipeline,
+pub enum ResolvePipelines {
+    /// Into the picture: those of tiles that lenses touch, and those of all others.
+    Tiles { inside: wgpu::RenderPipeline, outside: wgpu::RenderPipeline },
+    /// All of one sample into a buffer, for filters of the screen.
+    Sample(wgpu::ComputePipeline),
 }
 
 /// Writes the fragment of one pixel into a buffer.
@@ -109,20 +116,35 @@ impl Job {
     /// Composites each pixel's fragments into a target as large as the window, where the picture stands after the last
     /// sample; writes the maps where this is the sample for them.
     pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, target: &wgpu::TextureView) {
-        if sample.colors {
-            let mut pass = begin_drawing(encoder, "resolve", target, None);
-            pass.set_bind_group(0, &self.groups.scene, &[]);
-            pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
-            pass.set_bind_group(2, &self.groups.resolve, &[]);
-            let Tiles { active, count, .. } = self.tiles;
-            pass.set_pipeline(&self.resolve.inside);
-            pass.draw(0..4, 0..active);
-            pass.set_pipeline(&self.resolve.outside);
-            pass.draw(0..4, active..count);
+        match &self.resolve {
+            _ if !sample.colors => {}
+            ResolvePipelines::Tiles { inside, outside } => {
+                let mut pass = begin_drawing(encoder, "resolve", target, None);
+                pass.set_bind_group(0, &self.groups.scene, &[]);
+                pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+                pass.set_bind_group(2, &self.groups.resolve, &[]);
+                let Tiles { active, count, .. } = self.tiles;
+                pass.set_pipeline(inside);
+                pass.draw(0..4, 0..active);
+                pass.set_pipeline(outside);
+                pass.draw(0..4, active..count);
+            }
+            ResolvePipelines::Sample(pipeline) => {
+                self.encode_pixels(encoder, sample, pipeline, &self.groups.resolve);
+                self.encode_screen(encoder, sample, target);
+            }
         }
         if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
             self.encode_pixels(encoder, sample, pipeline, group);
         }
+    }
+
+    fn encode_screen(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, target: &wgpu::TextureView) {
+        let (Some(screen), Some(group)) = (&self.screen, &self.groups.screen_maps) else { return };
+        if let Some(pipeline) = &self.compute.aov {
+            self.encode_pixels(encoder, sample, pipeline, group);
+        }
+        screen.encode(encoder, &self.groups.plan, self.offset(sample, 0), &self.window, target);
     }
 
     /// Classifies and shades the fragment that a sample has drawn at the window's one pixel.
@@ -149,7 +171,7 @@ impl Job {
 }
 
 /// A pass that starts with cleared targets.
-fn begin_drawing<'a>(
+pub fn begin_drawing<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     label: &str,
     color: &wgpu::TextureView,

@@ -28,6 +28,7 @@ mod readback;
 mod records;
 mod renderer;
 mod room;
+mod screen_job;
 mod shaders;
 mod storage;
 mod targets;

@@ -54,6 +54,8 @@ pub struct Needs {
     pub hidden_lines: bool,
     /// How many numbers at vertices filters read.
     pub channels: u32,
+    /// Some filter works on the finished picture.
+    pub screen: bool,
 }
 
 impl Needs {
@@ -88,6 +90,7 @@ impl Needs {
             quantities: plan.ops.iter().any(Op::reads_quantity),
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
             channels: plan.channels.len() as u32,
+            screen: plan.ops.iter().any(Op::is_of_screen),
         }
     }
 
@@ -127,7 +130,25 @@ impl Needs {
             filters: 0,
             quantities: false,
             hidden_lines: false,
+            screen: false,
             ..self
+        }
+    }
+
+    /// The same for passes over the finished picture, which know nothing but sets.
+    pub fn for_screen(self) -> Self {
+        Self {
+            part_words: 1,
+            lenses: true,
+            layers: false,
+            taken_away: false,
+            compounds: false,
+            forms: [false; 4],
+            movers: false,
+            soft: false,
+            translucent: false,
+            channels: 0,
+            ..self.without_shading()
         }
     }
 
@@ -143,6 +164,7 @@ impl Needs {
             vertex_colors: true,
             stages: [true; 3],
             filters: u64::MAX,
+            screen: false,
             quantities: true,
             hidden_lines: true,
             ..self

@@ -63,10 +63,21 @@ pub struct Pipelines {
     needs: Needs,
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::RenderPipeline>,
+    resolve_sample: OnceLock<wgpu::ComputePipeline>,
     aov: OnceLock<wgpu::ComputePipeline>,
     explain: OnceLock<wgpu::ComputePipeline>,
+    screen: OnceLock<ScreenPipelines>,
     visibility: OnceLock<wgpu::ShaderModule>,
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
+}
+
+/// What runs the filters of the screen, each in two passes, and draws the picture after them.
+#[derive(Debug, Clone)]
+pub struct ScreenPipelines {
+    /// Of filters that take means.
+    pub means: [wgpu::ComputePipeline; 2],
+    pub edges: [wgpu::ComputePipeline; 2],
+    pub finish: wgpu::RenderPipeline,
 }
 
 impl Pipelines {
@@ -75,8 +86,10 @@ impl Pipelines {
             needs,
             layers: OnceLock::new(),
             resolve: OnceLock::new(),
+            resolve_sample: OnceLock::new(),
             aov: OnceLock::new(),
             explain: OnceLock::new(),
+            screen: OnceLock::new(),
             visibility: OnceLock::new(),
             draws: Mutex::default(),
         }
@@ -90,7 +103,8 @@ impl Pipelines {
         let build = || {
             let module = compile(&store.device, Module::Resolve, &self.needs);
             let layout = pipeline_layout(store, &store.layouts.resolve);
-            resolve_pipeline(&store.device, &module, &layout, store.target)
+            let entries = ("tile_vertex", "resolve");
+            picture_pipeline(&store.device, &module, &layout, entries, store.target)
         };
         self.resolve.get_or_init(build).clone()
     }
@@ -101,6 +115,30 @@ impl Pipelines {
 
     pub fn explain(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
         self.compute(&self.explain, store, Module::Explain, &store.layouts.resolve, "explain")
+    }
+
+    /// Composites each pixel of a sample into a buffer.
+    pub fn resolve_sample(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
+        self.compute(&self.resolve_sample, store, Module::Resolve, &store.layouts.resolve, "resolve_sample")
+    }
+
+    pub fn screen(&self, store: &PipelineStore) -> ScreenPipelines {
+        let build = || {
+            let module = compile(&store.device, Module::Screen, &self.needs);
+            // Nothing of the scene.
+            let layout = store.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("screen"),
+                bind_group_layouts: &[None, Some(&store.layouts.plan), Some(&store.layouts.screen)],
+                immediate_size: 0,
+            });
+            let compute = |entry| compute_pipeline(&store.device, &module, &layout, entry);
+            ScreenPipelines {
+                means: ["sum_rows", "sum_columns"].map(compute),
+                edges: ["mark_edges", "draw_edges"].map(compute),
+                finish: picture_pipeline(&store.device, &module, &layout, ("window_vertex", "finish"), store.target),
+            }
+        };
+        self.screen.get_or_init(build).clone()
     }
 
     pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
@@ -234,18 +272,20 @@ fn draw_pipeline(
     })
 }
 
-fn resolve_pipeline(
+/// Draws the picture. `entries`: of vertices, which make strips, and of fragments.
+fn picture_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
+    (vertex, fragment): (&str, &str),
     target: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("resolve"),
+        label: Some(fragment),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some("tile_vertex"),
+            entry_point: Some(vertex),
             compilation_options: Default::default(),
             buffers: &[],
         },
@@ -254,7 +294,7 @@ fn resolve_pipeline(
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some("resolve"),
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
             targets: &[Some(target.into())],
         }),

@@ -62,7 +62,9 @@ pub struct FrameRecord {
     /// Into `Plan::instances`.
     pub after_item: u32,
     /// World space.
-    pub eye: [f32; 4],
+    pub eye: [f32; 3],
+    /// Two over the picture's height, at depth 1 for a perspective camera.
+    pub picture_scale: f32,
     pub by_pixel: [u32; 12],
     pub translucent: [u32; 12],
     /// For accounts of one pixel: the lenses and rules that act on nearer fragments.

@@ -6,12 +6,13 @@ use super::bindings;
 use super::draws::{self, Draw, Skip};
 use super::frame::{self, FrameShape, Place, Sample};
 use super::item_data::ItemData;
-use super::job::{ComputeSteps, ExplainPass, Groups, Job, Resolve};
+use super::job::{ComputeSteps, ExplainPass, Groups, Job, ResolvePipelines};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::plan_group::{PlanContents, PlanGroup};
 use super::records::FrameRecord;
 use super::room::COUNTERS;
+use super::screen_job::ScreenJob;
 use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
 use super::tiles::Tiles;
 use super::upload::{SceneData, largest_buffer};
@@ -148,7 +149,7 @@ impl Renderer {
     ) -> Result<Job, Error> {
         let needs = Needs::of(scene, plan, options.engine);
         // Maps count layers, whether the picture asks for them or not.
-        let cuts_layers = needs.layers || options.aovs;
+        let cuts_layers = needs.layers || options.aovs || needs.screen;
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
         let fragments = self.reserved.fragments.max(first_guess(plan, &window));
@@ -181,11 +182,12 @@ impl Renderer {
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
-        let groups = self.groups(device, group, &targets, &needed, maps.as_ref());
+        let screen = needs.screen.then(|| self.screen(device, plan, &window, needs, &targets)).transpose()?;
+        let groups = self.groups(device, group, &targets, &needed, maps.as_ref(), screen.as_ref());
         let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
         // Compiled side by side where they are new.
         let (store, unshaded) = (&self.store, self.store.get(needs.without_shading()));
-        let ((draws, layers), (aov, (inside, outside))) = rayon::join(
+        let ((draws, layers), (aov, resolve)) = rayon::join(
             || {
                 let program = program_of(options.engine, after.is_some());
                 let draws = self.draws(scene, plan, &window, skip, program, &unshaded);
@@ -193,8 +195,13 @@ impl Renderer {
             },
             || {
                 let resolve = |needs| store.get(needs).resolve(store);
-                let aov = options.aovs.then(|| store.get(needs.for_accounts()).aov(store));
-                (aov, rayon::join(|| resolve(needs), || resolve(needs.outside(plan))))
+                let aov = (options.aovs || needs.screen).then(|| store.get(needs.for_accounts()).aov(store));
+                let of_sample = || ResolvePipelines::Sample(store.get(needs).resolve_sample(store));
+                let of_tiles = || {
+                    let (inside, outside) = rayon::join(|| resolve(needs), || resolve(needs.outside(plan)));
+                    ResolvePipelines::Tiles { inside, outside }
+                };
+                (aov, if needs.screen { of_sample() } else { of_tiles() })
             },
         );
         Ok(Job {
@@ -213,10 +220,24 @@ impl Renderer {
             indices: self.scene.indices.clone(),
             items,
             compute: ComputeSteps { layers, aov },
-            resolve: Resolve { inside, outside },
+            resolve,
+            screen,
             targets,
             groups,
         })
+    }
+
+    fn screen(
+        &self,
+        device: &wgpu::Device,
+        plan: &Plan,
+        window: &Window,
+        needs: Needs,
+        targets: &Targets,
+    ) -> Result<ScreenJob, Error> {
+        let pipelines = self.store.get(needs.for_screen()).screen(&self.store);
+        let (layout, summed) = (&self.store.layouts.screen, &targets.accumulated);
+        ScreenJob::new(device, self.largest_buffer, plan, window, needs.set_words, pipelines, layout, summed)
     }
 
     /// The draws of a plan, each with the pipeline that draws it.
@@ -264,6 +285,7 @@ impl Renderer {
         targets: &Targets,
         needed: &wgpu::Buffer,
         maps: Option<&wgpu::Buffer>,
+        screen: Option<&ScreenJob>,
     ) -> Groups {
         let layers = || targets.layers.as_entire_binding();
         let heads = || targets.heads.as_entire_binding();
@@ -280,7 +302,12 @@ impl Renderer {
                 &self.store.layouts.visibility,
                 &[layers(), heads(), fragments(), counters()],
             ),
-            resolve: self.resolve_group(device, targets, accumulated()),
+            resolve: self.resolve_group(
+                device,
+                targets,
+                screen.map_or_else(accumulated, |screen| screen.colors.as_entire_binding()),
+            ),
+            screen_maps: screen.map(|screen| self.resolve_group(device, targets, screen.maps.as_entire_binding())),
             maps: maps.map(|maps| self.resolve_group(device, targets, maps.as_entire_binding())),
         }
     }

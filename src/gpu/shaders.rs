@@ -10,10 +10,12 @@ pub enum Module {
     Resolve,
     Aov,
     Explain,
+    Screen,
 }
 
 impl Module {
-    pub const ALL: [Module; 5] = [Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Explain];
+    pub const ALL: [Module; 6] =
+        [Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Explain, Module::Screen];
 
     /// How labels and messages call it.
     pub fn name(self) -> &'static str {
@@ -23,6 +25,7 @@ impl Module {
             Module::Resolve => "resolve",
             Module::Aov => "aov",
             Module::Explain => "explain",
+            Module::Screen => "screen",
         }
     }
 
@@ -30,9 +33,10 @@ impl Module {
         match self {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
             Module::Visibility => &[&[VISIBILITY], VOLUMES, CLASSIFYING],
-            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, RESOLVE]],
+            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, FINISH, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
+            Module::Screen => &[&[FINISH, SCREEN]],
         }
     }
 }
@@ -64,6 +68,8 @@ const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
 const GLASS: &str = include_str!("../../shaders/gpu/glass.wgsl");
 const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
+const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
+const SCREEN: &str = include_str!("../../shaders/gpu/screen.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");
 

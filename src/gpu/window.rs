@@ -26,6 +26,21 @@ impl Window {
         y * self.size[0] as usize + x
     }
 
+    /// Whether a pixel of the whole picture is in it.
+    pub fn holds(&self, pixel: [u32; 2]) -> bool {
+        (0..2).all(|axis| pixel[axis] >= self.min[axis] && pixel[axis] - self.min[axis] < self.size[axis])
+    }
+
+    /// With so many pixels more on each side, as far as they lie in another window that holds it.
+    pub fn grown(&self, pixels: u32, within: &Window) -> Self {
+        let min = [0, 1].map(|axis| self.min[axis].saturating_sub(pixels).max(within.min[axis]));
+        let end = |axis: usize| {
+            let most = within.min[axis] + within.size[axis];
+            (self.min[axis] + self.size[axis]).saturating_add(pixels).min(most)
+        };
+        Self { min, size: [0, 1].map(|axis| end(axis) - min[axis]) }
+    }
+
     /// Two halves across the longer side, or `None` for a single pixel.
     pub fn halves(&self) -> Option<[Window; 2]> {
         let axis = usize::from(self.size[1] > self.size[0]);

@@ -77,6 +77,8 @@ enum Writes {
     Lit,
     /// Wires and points: their coverages multiply, but the upper wire's colour wins.
     Wires,
+    /// The finished picture.
+    Screen,
 }
 
 const BASE_COLOR: u32 = 1;
@@ -111,6 +113,7 @@ fn writes(filter: &Filter) -> Writes {
         Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } | Filter::Brightness { .. } => {
             Writes::Lit
         }
+        Filter::Edges { .. } | Filter::Blur { .. } | Filter::Pixelate { .. } => Writes::Screen,
         Filter::Wireframe { .. } | Filter::Points { .. } => Writes::Wires,
     }
 }
@@ -126,6 +129,8 @@ fn filters_commute(f: &Filter, g: &Filter) -> bool {
         // They keep the luminance that they mix towards, or multiply it.
         (Writes::Lit, Writes::Lit) => f == g || (keeps_luminance(f) && keeps_luminance(g)),
         (Writes::Content, Writes::Content) => f == g,
+        // Lines of one colour lie where they lie; means mix what the other has made.
+        (Writes::Screen, Writes::Screen) => f == g && matches!(f, Filter::Edges { .. }),
         _ => true,
     }
 }

@@ -14,6 +14,7 @@ mod order;
 mod reasons;
 mod regions;
 mod rules;
+mod screen;
 mod walk;
 mod warnings;
 
@@ -34,6 +35,7 @@ pub use order::{Declared, Key, PriorityGraph, Rank};
 pub use reasons::Reasons;
 pub use regions::Region;
 pub use rules::{Rule, Test};
+pub use screen::ScreenStep;
 pub use walk::{Verdict, survivors};
 
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.

@@ -52,6 +52,13 @@ impl Op {
         Self { flags: self.flags | if on { bit } else { 0 }, ..self }
     }
 
+    /// As the translated shaders take it.
+    pub fn shader(&self) -> wgsl::Op {
+        let vector = |v: [f32; 4]| naga_rust_rt::Vec4::new(v[0], v[1], v[2], v[3]);
+        let Self { kind, texture, flags, inner, a, b, c } = *self;
+        wgsl::Op { kind, texture, flags, inner, a: vector(a), b: vector(b), c: vector(c) }
+    }
+
     /// Whether it does anything in a stage: 0 on surfaces before they are lit, 1 on lit colours, 2 on coverage.
     pub fn acts_in(&self, stage: usize) -> bool {
         wgsl::FILTERS[self.kind as usize].stages[stage]
@@ -65,6 +72,11 @@ impl Op {
     /// Whether wires of nearer surfaces of its lens hide those of farther ones.
     pub fn hides_lines(&self) -> bool {
         self.kind == wgsl::OP_WIREFRAME.0 && self.flags & wgsl::HIDES_LINES.0 != 0
+    }
+
+    /// Whether it works on the finished picture.
+    pub fn is_of_screen(&self) -> bool {
+        [wgsl::OP_EDGES.0, wgsl::OP_BLUR.0, wgsl::OP_PIXELATE.0].contains(&self.kind)
     }
 
     /// Whether a fragment under this filter may let through what lies behind it.
@@ -125,6 +137,11 @@ impl Ops<'_> {
                 let lines = Op::new(wgsl::OP_WIREFRAME, NONE, [*width, *fill, 0.0, 0.0]);
                 lines.colored(*color).flagged(wgsl::HIDES_LINES.0, !hidden)
             }
+            Filter::Edges { color, width, threshold } => {
+                Op::new(wgsl::OP_EDGES, color.to_linear(), [*width, *threshold, 0.0, 0.0])
+            }
+            Filter::Blur { radius } => Op::new(wgsl::OP_BLUR, NONE, one(*radius)),
+            Filter::Pixelate { radius } => Op::new(wgsl::OP_PIXELATE, NONE, one(*radius)),
             Filter::Points { size } => Op::new(wgsl::OP_POINTS, NONE, one(*size)),
             Filter::Texture { file, uv, scale } => Op {
                 texture: self.scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
@@ -257,6 +274,9 @@ pub fn filter_name(filter: &Filter) -> &'static str {
         Filter::Contours { .. } => "contours",
         Filter::Toon { .. } => "toon",
         Filter::Hatch { .. } => "hatch",
+        Filter::Edges { .. } => "edges",
+        Filter::Blur { .. } => "blur",
+        Filter::Pixelate { .. } => "pixelate",
     }
 }
 

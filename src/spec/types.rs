@@ -310,6 +310,20 @@ pub enum Filter {
         width: f32,
         color: Color,
     },
+    /// `width` in pixels.
+    Edges {
+        color: Color,
+        width: f32,
+        threshold: f32,
+    },
+    /// Pixels.
+    Blur {
+        radius: f32,
+    },
+    /// Pixels.
+    Pixelate {
+        radius: f32,
+    },
 }
 
 /// What is shown as false colour or contour lines.

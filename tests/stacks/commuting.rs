@@ -52,15 +52,6 @@ fn plan() -> Plan {
     Plan::new(&spec, &scene()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn vec4(v: [f32; 4]) -> Vec4<f32> {
-    Vec4::new(v[0], v[1], v[2], v[3])
-}
-
-fn op(op: &Op) -> wgsl::Op {
-    let Op { kind, texture, flags, inner, a, b, c } = *op;
-    wgsl::Op { kind, texture, flags, inner, a: vec4(a), b: vec4(b), c: vec4(c) }
-}
-
 fn surface(random: &mut Random) -> wgsl::Surface {
     let mut number = || random.between(0.1, 0.9) as f32;
     wgsl::Surface {
@@ -87,7 +78,7 @@ fn surface(random: &mut Random) -> wgsl::Surface {
 /// Colour, opacity and coverage after a stack, lowest first, under some light that minds metal and roughness.
 /// `edge`: how far the nearest edge is, in pixels; `value`: of the quantity that a filter reads.
 fn seen(stack: [&Op; 2], surface: wgsl::Surface, edge: f32, value: f32) -> [f32; 5] {
-    let ops = stack.map(op);
+    let ops = stack.map(Op::shader);
     // Maps of different quantities give different colours.
     let reading = |op: &wgsl::Op| wgsl::Reading {
         texel: Vec4::new(0.2 + 0.01 * op.kind as f32, 0.5, 0.7, 0.8),

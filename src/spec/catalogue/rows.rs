@@ -10,6 +10,8 @@ use crate::spec::NumberRange;
 
 const PIXELS: ParamKind = Number(NumberRange::closed(0.0, 1000.0));
 const LINE_PIXELS: ParamKind = Number(NumberRange::closed(1.0, 1000.0));
+/// How far a filter of the finished picture may look.
+const SCREEN_PIXELS: ParamKind = Number(NumberRange::closed(0.0, 100.0));
 const UNIT: ParamKind = Number(NumberRange::UNIT);
 const OWN: ParamDefault = Meaning("the surface's own");
 const FITTED: ParamDefault = Meaning("fitted to what is seen");
@@ -63,9 +65,9 @@ pub const FILTERS: &[FilterRow] = &[
     built("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
     built("toon", Surface, "light in a few flat steps", TOON),
     built("hatch", Surface, "light as pen strokes", HATCH),
-    planned("edges", Screen, "silhouettes, creases and region borders", EDGES),
-    planned("blur", Screen, "blurs, to push context back", BLUR),
-    planned("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
+    built("edges", Screen, "silhouettes, creases and region borders", EDGES),
+    built("blur", Screen, "blurs, to push context back", BLUR),
+    built("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
     planned("wgsl", Custom, "a filter of your own, in WGSL", WGSL),
 ];
 
@@ -162,11 +164,11 @@ const HATCH: &[Param] = &[
 ];
 const EDGES: &[Param] = &[
     param("color", Color, Hex("#000000"), "of the lines"),
-    param("width", PIXELS, Num(1.0), "of the lines, pixels"),
+    param("width", SCREEN_PIXELS, Num(1.0), "of the lines, pixels"),
     param("threshold", UNIT, Num(0.1), "what counts as an edge"),
 ];
-const BLUR: &[Param] = &[param("radius", PIXELS, Num(4.0), "pixels")];
-const PIXELATE: &[Param] = &[param("radius", PIXELS, Num(4.0), "pixels")];
+const BLUR: &[Param] = &[param("radius", SCREEN_PIXELS, Num(4.0), "pixels")];
+const PIXELATE: &[Param] = &[param("radius", SCREEN_PIXELS, Num(4.0), "pixels, of squares of 2 radius + 1")];
 const WGSL: &[Param] = &[
     param("file", File, Required, "with fn filter_surface or fn filter_color"),
     param("params", FreeTable, Meaning("none"), "checked against the file's Params struct"),

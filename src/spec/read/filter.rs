@@ -292,6 +292,9 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
         "contours" => Some(contours(params)?),
         "toon" => params.number("levels").map(|levels| Filter::Toon { levels: levels as u32 }),
         "hatch" => hatch(params),
+        "edges" => edges(params),
+        "blur" => params.number("radius").map(|radius| Filter::Blur { radius }),
+        "pixelate" => params.number("radius").map(|radius| Filter::Pixelate { radius }),
         _ => None,
     };
     filter.ok_or_else(|| params.error(format!("filter `{}` cannot be made from its catalogue row", row.name)))
@@ -378,6 +381,11 @@ fn contours(params: &Params) -> Result<Filter, InputError> {
 fn hatch(params: &Params) -> Option<Filter> {
     let [spacing, width] = [params.number("spacing")?, params.number("width")?];
     Some(Filter::Hatch { spacing, width, color: params.color("color")? })
+}
+
+fn edges(params: &Params) -> Option<Filter> {
+    let [width, threshold] = [params.number("width")?, params.number("threshold")?];
+    Some(Filter::Edges { color: params.color("color")?, width, threshold })
 }
 
 fn texture(params: &Params) -> Option<Filter> {

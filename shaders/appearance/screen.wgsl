@@ -1,0 +1,21 @@
+// What the screen-space filters share.
+
+// How far a filter looks, in pixels.
+fn screen_reach(op: Op) -> f32 {
+    if op.kind == OP_BLUR {
+        return floor(op.b.x);
+    }
+    if op.kind == OP_PIXELATE {
+        return pixelate_side(op) - 1.0;
+    }
+    // Half a line, and the neighbour that makes it one.
+    return floor(0.5 * op.b.x + 0.5) + 1.0;
+}
+
+// The weight of another pixel of the same row or column in a filter that takes means.
+fn mean_weight(op: Op, at: f32, other: f32) -> f32 {
+    if op.kind == OP_PIXELATE {
+        return pixelate_weight(op, at, other);
+    }
+    return blur_weight(op, other - at);
+}
