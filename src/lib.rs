@@ -5,6 +5,7 @@ pub mod appearance;
 pub mod bench;
 pub mod cli;
 pub mod cpu;
+pub mod custom;
 pub mod debug_view;
 mod error;
 pub mod explain;

@@ -1,7 +1,7 @@
 //! Text to [`Spec`](super::Spec): TOML with places, then one small reader for each part of the format.
 
 mod camera;
-mod color;
+pub(crate) mod color;
 mod condition;
 mod document;
 mod filter;
@@ -16,5 +16,5 @@ mod number;
 mod overlap;
 mod scene;
 mod shape;
-mod suggest;
+pub(crate) mod suggest;
 mod table;
