@@ -239,7 +239,11 @@ fn on_cpu(custom: &Custom, words: &[u32]) -> Vec<f32> {
 
 /// The first number that differs.
 fn difference(cpu: &[f32], gpu: &[f32]) -> Option<String> {
-    let differs = |(a, b): (&f32, &f32)| !((a - b).abs() <= TOLERANCE * a.abs().max(1.0));
+    // What is no number differs, too.
+    let differs = |(a, b): (&f32, &f32)| {
+        let distance = (a - b).abs();
+        distance.is_nan() || distance > TOLERANCE * a.abs().max(1.0)
+    };
     let at = cpu.iter().zip(gpu).position(differs)?;
     Some(format!("number {} of call {}: {} on the CPU, {} on the GPU", at % WORDS, at / WORDS, cpu[at], gpu[at]))
 }

@@ -50,14 +50,8 @@ pub struct Custom {
     /// The GPU's text, but for its number.
     text: String,
     program: Program,
-    surface: Option<Call>,
-    color: Option<Call>,
-}
-
-/// A function of the file.
-#[derive(Debug, Clone)]
-struct Call {
-    entry: Entry,
+    surface: Option<Entry>,
+    color: Option<Entry>,
 }
 
 impl Custom {
@@ -108,7 +102,7 @@ impl Custom {
         self.color.is_some()
     }
 
-    /// The file's text for a shader, every name of it with the prefix `custom<number>_`; see [`wgsl`] for the whole.
+    /// The file's text for a shader, every name of it with the prefix `custom<number>_own_`; see [`wgsl`] for the whole.
     ///
     /// It has `fn custom0_surface(s: CustomSurface, first: u32) -> CustomSurface` and
     /// `fn custom0_color(c: vec3f, s: CustomSurface, first: u32) -> vec3f`, each where the file has that function.
@@ -119,9 +113,9 @@ impl Custom {
 
     /// `filter_surface`; the surface itself where the file has no such function. `words` as [`Custom::values`] gives them.
     pub fn surface(&self, surface: &SurfaceValue, words: &[u32]) -> SurfaceValue {
-        let Some(call) = &self.surface else { return *surface };
+        let Some(entry) = &self.surface else { return *surface };
         let numbers = surface.numbers().map(f32::to_bits);
-        self.program.call(&call.entry, &[&numbers, words], |result| {
+        self.program.call(entry, &[&numbers, words], |result| {
             let mut numbers = [0.0; SURFACE_WORDS];
             numbers.iter_mut().zip(result).for_each(|(to, word)| *to = f32::from_bits(*word));
             SurfaceValue::from_numbers(&numbers)
@@ -130,9 +124,9 @@ impl Custom {
 
     /// `filter_color` of a lit colour in linear light; the colour itself where the file has no such function.
     pub fn color(&self, color: [f32; 3], surface: &SurfaceValue, words: &[u32]) -> [f32; 3] {
-        let Some(call) = &self.color else { return color };
+        let Some(entry) = &self.color else { return color };
         let (color, numbers) = (color.map(f32::to_bits), surface.numbers().map(f32::to_bits));
-        self.program.call(&call.entry, &[&color, &numbers, words], |result| {
+        self.program.call(entry, &[&color, &numbers, words], |result| {
             let mut color = [0.0; 3];
             color.iter_mut().zip(result).for_each(|(to, word)| *to = f32::from_bits(*word));
             color
@@ -191,11 +185,11 @@ fn compile(
     module: &naga::Module,
     info: &naga::valid::ModuleInfo,
     signature: &Signature,
-) -> Result<(Program, [Option<Call>; 2]), InputError> {
+) -> Result<(Program, [Option<Entry>; 2]), InputError> {
     let wanted = [signature.surface, signature.color];
     let functions: Vec<_> = wanted.iter().flatten().map(|filter| filter.function).collect();
     let (program, entries) = program::compile(module, info, &functions)
         .map_err(|refusal| text.error(text.place(refusal.span), refusal.message))?;
     let mut entries = entries.into_iter();
-    Ok((program, wanted.map(|filter| filter.and_then(|_| entries.next()).map(|entry| Call { entry }))))
+    Ok((program, wanted.map(|filter| filter.and_then(|_| entries.next()))))
 }

@@ -15,6 +15,9 @@ use super::{Custom, fuel};
 /// Stands for `custom0_`, `custom1_` and so on until the number is known.
 const PREFIX: &str = "custom_number_";
 
+/// Before every name of the file's own; what stands in front of it is ours.
+const OWN: &str = "custom_number_own_";
+
 /// The names of the host's side.
 const HOST_SURFACE: &str = "CustomSurface";
 const HOST_WORDS: &str = "custom_words";
@@ -49,7 +52,7 @@ pub fn numbered(text: &str, number: usize) -> String {
 fn rename(module: &mut Module) {
     let prefixed = |name: &mut Option<String>| {
         if let Some(name) = name {
-            name.insert_str(0, PREFIX);
+            name.insert_str(0, OWN);
         }
     };
     let mut types = naga::UniqueArena::new();
@@ -60,7 +63,11 @@ fn rename(module: &mut Module) {
     }
     module.types = types;
     module.constants.iter_mut().for_each(|(_, constant)| prefixed(&mut constant.name));
-    module.global_variables.iter_mut().for_each(|(_, variable)| prefixed(&mut variable.name));
+    // The only variable there is.
+    module
+        .global_variables
+        .iter_mut()
+        .for_each(|(_, variable)| variable.name = Some(format!("{PREFIX}{}", fuel::FUEL)));
     for (_, function) in module.functions.iter_mut() {
         prefixed(&mut function.name);
         // A local name that looks like one of ours would take it away.
@@ -79,7 +86,7 @@ fn rename(module: &mut Module) {
     }
 }
 
-/// `fn custom0_load(first: u32) -> custom0_Params`
+/// `fn custom0_load(first: u32) -> custom0_own_Params`
 fn load(params: &[ParamField]) -> String {
     let mut at = 0;
     let mut word = |write: &dyn Fn(&str) -> String| {
@@ -102,7 +109,7 @@ fn load(params: &[ParamField]) -> String {
         })
         .collect();
     format!(
-        "\nfn {PREFIX}load(first: u32) -> {PREFIX}{PARAMS} {{\n    return {PREFIX}{PARAMS}({});\n}}\n",
+        "\nfn {PREFIX}load(first: u32) -> {OWN}{PARAMS} {{\n    return {OWN}{PARAMS}({});\n}}\n",
         members.join(", ")
     )
 }
@@ -113,11 +120,11 @@ fn surface_adapter(filter: &Filter) -> String {
         "
 fn {PREFIX}surface(s: {HOST_SURFACE}, first: u32) -> {HOST_SURFACE} {{
     {PREFIX}{fuel} = {LOOP_BUDGET}u;
-    let r = {PREFIX}{FILTER_SURFACE}({}{params});
+    let r = {OWN}{FILTER_SURFACE}({}{params});
     return {};
 }}
 ",
-        surface(&format!("{PREFIX}Surface"), "s"),
+        surface(&format!("{OWN}Surface"), "s"),
         surface(HOST_SURFACE, "r"),
         fuel = fuel::FUEL,
     )
@@ -129,10 +136,10 @@ fn color_adapter(filter: &Filter) -> String {
         "
 fn {PREFIX}color(c: vec3f, s: {HOST_SURFACE}, first: u32) -> vec3f {{
     {PREFIX}{fuel} = {LOOP_BUDGET}u;
-    return {PREFIX}{FILTER_COLOR}(c, {}{params});
+    return {OWN}{FILTER_COLOR}(c, {}{params});
 }}
 ",
-        surface(&format!("{PREFIX}Surface"), "s"),
+        surface(&format!("{OWN}Surface"), "s"),
         fuel = fuel::FUEL,
     )
 }

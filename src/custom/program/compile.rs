@@ -1,12 +1,14 @@
 //! A module's functions, one after another, callees first.
 
 use std::collections::HashMap;
+use std::convert::Infallible;
 
 use naga::valid::ModuleInfo;
-use naga::{Function, Handle, Module};
+use naga::{Function, Handle, Module, Statement};
 
 use super::body::Body;
 use super::{Address, Entry, Layout, MOST_MEMORY, Program, Step, Stretch, Target};
+use crate::custom::walk;
 
 /// Why a module cannot be compiled, and where.
 #[derive(Debug)]
@@ -29,7 +31,8 @@ pub fn compile(
 ) -> Result<(Program, Vec<Entry>), Refusal> {
     let mut compiler = Compiler::new(module, info);
     compiler.globals()?;
-    for (handle, _) in module.functions.iter() {
+    let needed = needed(module, wanted);
+    for (handle, _) in module.functions.iter().filter(|(handle, _)| needed[handle.index()]) {
         let entry = Body::compile(&mut compiler, handle)?;
         compiler.functions.insert(handle, entry);
     }
@@ -37,6 +40,24 @@ pub fn compile(
     let entries =
         wanted.iter().map(|f| compiler.functions.get(f).cloned().ok_or_else(missing)).collect::<Result<_, _>>()?;
     Ok((compiler.finish(), entries))
+}
+
+/// Whether each function is wanted, or called by one that is.
+fn needed(module: &Module, wanted: &[Handle<Function>]) -> Vec<bool> {
+    let mut needed = vec![false; module.functions.len()];
+    wanted.iter().for_each(|handle| needed[handle.index()] = true);
+    // Callees stand before their callers.
+    for (handle, function) in module.functions.iter().rev() {
+        if needed[handle.index()] {
+            let Ok(()) = walk::statements::<Infallible>(&function.body, &mut |statement, _| {
+                if let Statement::Call { function, .. } = statement {
+                    needed[function.index()] = true;
+                }
+                Ok(())
+            });
+        }
+    }
+    needed
 }
 
 /// Where a jump leads, to be known later.

@@ -246,13 +246,12 @@ impl Body<'_, '_> {
         left: Handle<Expression>,
         right: Handle<Expression>,
     ) -> Result<Stretch, Refusal> {
-        if op == BinaryOperator::Multiply {
-            if let Some((rows, inner)) = product(self.inner(left), self.inner(right)) {
-                let (a, b) = (self.value(left)?.at, self.value(right)?.at);
-                let to = self.room(handle)?;
-                self.compiler.steps.push(Step::Product { to, a, b, rows, inner });
-                return Ok(to);
-            }
+        let product = product(self.inner(left), self.inner(right)).filter(|_| op == BinaryOperator::Multiply);
+        if let Some((rows, inner)) = product {
+            let (a, b) = (self.value(left)?.at, self.value(right)?.at);
+            let to = self.room(handle)?;
+            self.compiler.steps.push(Step::Product { to, a, b, rows, inner });
+            return Ok(to);
         }
         let kernel = operators::binary(op, self.kind(left));
         self.apply_known(handle, kernel, &[left, right])

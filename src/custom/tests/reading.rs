@@ -125,6 +125,39 @@ fn all_filters_of_a_picture_stand_in_one_shader() {
 }
 
 #[test]
+fn a_file_may_use_our_names_for_its_own() {
+    let custom = read(
+        "struct Params { load: f32 }
+        fn surface(fuel: f32) -> f32 { var größe = fuel; loop { größe += 1.0; if größe > 9.0 { break; } } return größe; }
+        fn color(c: vec3f) -> vec3f { return c; }
+        fn load() -> f32 { return 1.0; }
+        fn fuel() -> f32 { return 2.0; }
+        fn own_fuel() -> f32 { return 4.0; }
+        fn filter_color(c: vec3f, s: Surface, p: Params) -> vec3f {
+            return color(c) + vec3f(surface(1.0), load() + fuel(), own_fuel() + p.load);
+        }",
+    );
+    assert_eq!(custom.color([0.0; 3], &SURFACE, &[0.5_f32.to_bits()]), [10.0, 3.0, 4.5]);
+}
+
+#[test]
+fn lines_may_end_as_on_windows() {
+    let custom = read(
+        "struct Params {\r\n  a: f32, // = 2: how much\r\n}\r\nfn filter_color(c: vec3f, s: Surface, p: Params) -> vec3f {\r\n  return c * p.a;\r\n}\r\n",
+    );
+    assert_eq!((custom.params()[0].doc.as_str(), custom.params()[0].default[0]), ("how much", 2.0_f32.to_bits()));
+}
+
+#[test]
+fn what_naga_cannot_write_back_is_refused_here() {
+    // The result of `modf` has a type without a name in WGSL, which naga's writer names.
+    let text =
+        "fn filter_color(c: vec3f, s: Surface) -> vec3f { var m = modf(c.x); m.fract += 1.0; return vec3f(m.fract); }";
+    let error = Custom::parse(text, "modf.wgsl").expect_err("no text for the GPU").to_string();
+    assert!(error.contains("cannot be written for the GPU"), "{error}");
+}
+
+#[test]
 fn a_file_may_have_one_function_and_the_other_changes_nothing() {
     let surface = read("fn filter_surface(s: Surface) -> Surface { return s; }");
     assert!(surface.has_surface() && !surface.has_color());
