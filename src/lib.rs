@@ -6,6 +6,7 @@ pub mod bench;
 pub mod cli;
 pub mod color_map;
 pub mod cpu;
+pub mod custom;
 pub mod debug_view;
 mod error;
 pub mod explain;

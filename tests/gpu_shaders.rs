@@ -58,10 +58,10 @@ const MOST: Needs = Needs {
     screen: true,
 };
 /// Twin of the limit that `caps.rs` asks for.
-const STORAGE_BUFFERS: usize = 20;
+const STORAGE_BUFFERS: usize = 21;
 
 fn parsed(module: Module, needs: Needs) -> naga::Module {
-    let text = source(module, &needs);
+    let text = source(module, &needs, &lenspeel::custom::wgsl(&[]));
     naga::front::wgsl::parse_str(&text)
         .unwrap_or_else(|e| panic!("{} with {needs:?}: {}", module.name(), e.emit_to_string(&text)))
 }
@@ -70,9 +70,9 @@ fn validated(module: Module, needs: Needs) -> (naga::Module, naga::valid::Module
     let parsed = parsed(module, needs);
     let mut validator =
         naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-    let info = validator
-        .validate(&parsed)
-        .unwrap_or_else(|e| panic!("{}: {}", module.name(), e.emit_to_string(&source(module, &needs))));
+    let info = validator.validate(&parsed).unwrap_or_else(|e| {
+        panic!("{}: {}", module.name(), e.emit_to_string(&source(module, &needs, &lenspeel::custom::wgsl(&[]))))
+    });
     (parsed, info)
 }
 

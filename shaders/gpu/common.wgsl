@@ -274,6 +274,8 @@ struct TextureInfo {
 // Four words a tile (see `TileRecord`), then the numbers of all tiles, first of those that lenses touch, then the parts
 // of each tile (see `part_at`), then the faces of their cells.
 @group(1) @binding(9) var<storage, read> tiles: array<u32>;
+// Parameters of the user's own filters.
+@group(1) @binding(10) var<storage, read> custom_words: array<u32>;
 
 struct TileRecord {
     // Where the layers of its first pixel are, and how many words each pixel has there.

@@ -249,6 +249,7 @@ fn shade(f: Fragment, at: Meeting, ray: PixelRay, passed: Set) -> ShadedFragment
     let t = at.triangle;
     let weights = at.hit.weights;
     var surface = surface_of_material(f, t, weights, ray);
+    let normal = surface.normal;
     if !LENSES {
         return ShadedFragment(emitted(surface, lit(surface)), surface_opacity(surface), 1.0, surface.normal);
     }
@@ -257,12 +258,12 @@ fn shade(f: Fragment, at: Meeting, ray: PixelRay, passed: Set) -> ShadedFragment
     }
     var shaded = Shaded(emitted(surface, lit(surface)), surface_opacity(surface), 1.0);
     if COLOR_FILTERS {
-        shaded.color = color_stage(shaded.color, f, surface.position);
+        shaded.color = color_stage(shaded.color, f, surface);
     }
     if COVERAGE_FILTERS {
         shaded = coverage_stage(shaded, f, at, ray, surface.position, passed);
     }
-    return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, surface.normal);
+    return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, normal);
 }
 
 fn surface_stage(material: Surface, f: Fragment, at: Meeting, ray: PixelRay) -> Surface {
@@ -275,7 +276,13 @@ fn surface_stage(material: Surface, f: Fragment, at: Meeting, ray: PixelRay) -> 
                 let looked = look_up(op, place.rank, f.item, at, s, ray);
                 if looked.found {
                     let amount = soft_amount(place.rank, f.item, s.position);
-                    s = faded_surface(s, filter_surface(op, s, looked.reading), amount);
+                    var after = s;
+                    if HAS_WGSL && op.kind == OP_WGSL {
+                        after = custom_filtered(op, s, source_position(op, place.rank, f.item, s.position));
+                    } else {
+                        after = filter_surface(op, s, looked.reading);
+                    }
+                    s = faded_surface(s, after, amount);
                 }
             }
             continuing {
@@ -287,14 +294,21 @@ fn surface_stage(material: Surface, f: Fragment, at: Meeting, ray: PixelRay) -> 
     return s;
 }
 
-fn color_stage(lit: vec3f, f: Fragment, position: vec3f) -> vec3f {
+fn color_stage(lit: vec3f, f: Fragment, s: Surface) -> vec3f {
     var color = lit;
     var place = stack_start(f.stack);
     if place.found {
         loop {
             if is_filter(place) {
-                let amount = soft_amount(place.rank, f.item, position);
-                color = mix(color, filter_color(ops[place.op], color), amount);
+                let op = ops[place.op];
+                let amount = soft_amount(place.rank, f.item, s.position);
+                var after = color;
+                if HAS_WGSL && op.kind == OP_WGSL {
+                    after = custom_colored(op, color, s, source_position(op, place.rank, f.item, s.position));
+                } else {
+                    after = filter_color(op, color);
+                }
+                color = mix(color, after, amount);
             }
             continuing {
                 place = stack_next(place);

@@ -2,6 +2,7 @@
 
 mod block;
 mod convert;
+mod custom;
 mod geometry;
 mod glass;
 mod intersect;

@@ -3,6 +3,7 @@
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, g2, g3, g4, light, v2, v3, v4};
+use super::custom::Site;
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::Fragment;
@@ -133,12 +134,21 @@ impl<'a> Shader<'a> {
         for (rank, op, amount) in ops() {
             let source = || instance.source_from_shown(rank, op.inner != 0);
             let Some(reading) = self.reading(op, &hit, source) else { continue };
-            surface = wgsl::faded_surface(surface, wgsl::filter_surface(*op, surface, reading), amount);
+            let filtered = match self.custom(op, position, source) {
+                Some(site) => site.filtered(op, surface),
+                None => wgsl::filter_surface(*op, surface, reading),
+            };
+            surface = wgsl::faded_surface(surface, filtered, amount);
         }
         let opacity = wgsl::surface_opacity(surface);
         let mut color = g3(wgsl::emitted(surface, v3(self.light(surface))));
-        for (_, op, amount) in ops() {
-            color = color.lerp(g3(wgsl::filter_color(*op, v3(color))), amount);
+        for (rank, op, amount) in ops() {
+            let source = || instance.source_from_shown(rank, op.inner != 0);
+            let filtered = match self.custom(op, position, source) {
+                Some(site) => site.colored(op, color, &surface),
+                None => g3(wgsl::filter_color(*op, v3(color))),
+            };
+            color = color.lerp(filtered, amount);
         }
         let mut shaded = wgsl::Shaded { color: v3(color), opacity, coverage: 1.0 };
         let mut near = None;
@@ -272,6 +282,13 @@ impl<'a> Shader<'a> {
         let footprint = wgsl::uv_footprint(*ray, a, b, c, v2(ua), v2(ub), v2(uc), v2(size));
         let at = ua * weights.x + ub * weights.y + uc * weights.z;
         texture::sample(&self.scene.textures, index, at, footprint)
+    }
+
+    /// Where a filter of the user's own acts on what is shown at `position`; `None` for any other.
+    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'a>> {
+        let eye = self.plan.view.eye;
+        let from_eye = || (source().transform_point3(position.as_dvec3() + eye) - eye).as_vec3();
+        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_eye() })
     }
 
     /// What a filter looks up; `None` where it does not act, as the surface has no such value. `source`: from the shown

@@ -29,7 +29,7 @@ impl Layouts {
         let compute = wgpu::ShaderStages::COMPUTE;
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let everywhere = compute | fragment | wgpu::ShaderStages::VERTEX;
-        let plan = [Record, Read, Read, Read, Read, Read, Read, Read, Read, Read];
+        let plan = [Record, Read, Read, Read, Read, Read, Read, Read, Read, Read, Read];
         Self {
             scene: layout(
                 device,

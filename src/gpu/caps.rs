@@ -104,7 +104,7 @@ fn lacking(adapter: &wgpu::Adapter) -> Option<String> {
 }
 
 /// Storage buffers a shader stage binds: the scene (6), the plan (10), and the pixel's layers, lists and colours (4).
-const STORAGE_BUFFERS: u32 = 20;
+const STORAGE_BUFFERS: u32 = 21;
 
 /// The limits asked for: the defaults, and as much memory and texture as the adapter has, since full pictures of
 /// layers and fragments outgrow the defaults. Needs are checked against them before anything is drawn.

@@ -102,7 +102,8 @@ impl Headless {
     ) -> Result<Option<Found>, Error> {
         let job = renderer.prepare_next_behind(&self.device, scene, plan, window, after)?;
         let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(None) };
-        let pass = renderer.explain_pass(&self.device, &job, 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words)))?;
+        let pass =
+            renderer.explain_pass(&self.device, plan, &job, 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words)))?;
         let mut encoder = self.encoder();
         job.encode_layers(&mut encoder, sample);
         job.encode_visibility(&mut encoder, sample);

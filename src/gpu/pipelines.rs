@@ -35,6 +35,9 @@ impl Program {
     }
 }
 
+/// What shaders are compiled for: what a plan needs, and the text of the user's own filters.
+type Variant = (Needs, Arc<str>);
+
 /// Compiles pipelines when they are first needed and keeps them: for any number of scenes on one device.
 #[derive(Debug)]
 pub struct PipelineStore {
@@ -42,18 +45,19 @@ pub struct PipelineStore {
     /// Of the views that pictures are drawn into.
     pub target: wgpu::TextureFormat,
     device: wgpu::Device,
-    by_needs: Mutex<BTreeMap<Needs, Arc<Pipelines>>>,
+    kept: Mutex<BTreeMap<Variant, Arc<Pipelines>>>,
 }
 
 impl PipelineStore {
     pub fn new(device: &wgpu::Device, target: wgpu::TextureFormat) -> Self {
-        Self { layouts: Layouts::new(device), target, device: device.clone(), by_needs: Mutex::default() }
+        Self { layouts: Layouts::new(device), target, device: device.clone(), kept: Mutex::default() }
     }
 
-    /// The pipelines for plans with the same needs.
-    pub fn get(&self, needs: Needs) -> Arc<Pipelines> {
-        let mut kept = self.by_needs.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.entry(needs).or_insert_with(|| Arc::new(Pipelines::new(needs))).clone()
+    /// The pipelines for plans with the same needs and filters of the user's own, as WGSL.
+    pub fn get(&self, needs: Needs, custom: &Arc<str>) -> Arc<Pipelines> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let new = || Arc::new(Pipelines::new(needs, Arc::clone(custom)));
+        kept.entry((needs, Arc::clone(custom))).or_insert_with(new).clone()
     }
 }
 
@@ -61,6 +65,7 @@ impl PipelineStore {
 #[derive(Debug)]
 pub struct Pipelines {
     needs: Needs,
+    custom: Arc<str>,
     layers: OnceLock<wgpu::ComputePipeline>,
     resolve: OnceLock<wgpu::RenderPipeline>,
     resolve_sample: OnceLock<wgpu::ComputePipeline>,
@@ -81,9 +86,10 @@ pub struct ScreenPipelines {
 }
 
 impl Pipelines {
-    fn new(needs: Needs) -> Self {
+    fn new(needs: Needs, custom: Arc<str>) -> Self {
         Self {
             needs,
+            custom,
             layers: OnceLock::new(),
             resolve: OnceLock::new(),
             resolve_sample: OnceLock::new(),
@@ -101,7 +107,7 @@ impl Pipelines {
 
     pub fn resolve(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
         let build = || {
-            let module = compile(&store.device, Module::Resolve, &self.needs);
+            let module = self.compile(&store.device, Module::Resolve);
             let layout = pipeline_layout(store, &store.layouts.resolve);
             let entries = ("tile_vertex", "resolve");
             picture_pipeline(&store.device, &module, &layout, entries, store.target)
@@ -124,7 +130,7 @@ impl Pipelines {
 
     pub fn screen(&self, store: &PipelineStore) -> ScreenPipelines {
         let build = || {
-            let module = compile(&store.device, Module::Screen, &self.needs);
+            let module = self.compile(&store.device, Module::Screen);
             // Nothing of the scene.
             let layout = store.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("screen"),
@@ -142,7 +148,7 @@ impl Pipelines {
     }
 
     pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
-        let module = self.visibility.get_or_init(|| compile(&store.device, Module::Visibility, &self.needs));
+        let module = self.visibility.get_or_init(|| self.compile(&store.device, Module::Visibility));
         let build = || {
             let layout = pipeline_layout(store, &store.layouts.visibility);
             draw_pipeline(
@@ -158,6 +164,13 @@ impl Pipelines {
         kept.entry((program, culling)).or_insert_with(build).clone()
     }
 
+    fn compile(&self, device: &wgpu::Device, module: Module) -> wgpu::ShaderModule {
+        device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(module.name()),
+            source: wgpu::ShaderSource::Wgsl(source(module, &self.needs, &self.custom).into()),
+        })
+    }
+
     fn compute(
         &self,
         slot: &OnceLock<wgpu::ComputePipeline>,
@@ -167,18 +180,11 @@ impl Pipelines {
         entry: &str,
     ) -> wgpu::ComputePipeline {
         let build = || {
-            let module = compile(&store.device, module, &self.needs);
+            let module = self.compile(&store.device, module);
             compute_pipeline(&store.device, &module, &pipeline_layout(store, layout), entry)
         };
         slot.get_or_init(build).clone()
     }
-}
-
-fn compile(device: &wgpu::Device, module: Module, needs: &Needs) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(module.name()),
-        source: wgpu::ShaderSource::Wgsl(source(module, needs).into()),
-    })
 }
 
 fn pipeline_layout(store: &PipelineStore, work: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {

@@ -49,6 +49,7 @@ impl PlanContents<'_> {
             buffer("the plan's filters", bytemuck::cast_slice(&plan.ops))?,
             buffer("the plan's lights", bytemuck::cast_slice(&lights))?,
             buffer("the window's tiles", bytemuck::cast_slice(self.tiles))?,
+            buffer("the plan's parameters of filters", bytemuck::cast_slice(&plan.custom_words))?,
         ];
         let record = wgpu::BufferBinding {
             buffer: &frames,

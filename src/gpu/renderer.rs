@@ -17,6 +17,7 @@ use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
 use super::tiles::Tiles;
 use super::upload::{SceneData, largest_buffer};
 use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov};
+use crate::custom::{self, Custom};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -132,10 +133,20 @@ impl Renderer {
     }
 
     /// What classifies and shades the fragment of a frame of one pixel, into so many bytes.
-    pub(super) fn explain_pass(&self, device: &wgpu::Device, job: &Job, bytes: u64) -> Result<ExplainPass, Error> {
+    pub(super) fn explain_pass(
+        &self,
+        device: &wgpu::Device,
+        plan: &Plan,
+        job: &Job,
+        bytes: u64,
+    ) -> Result<ExplainPass, Error> {
         let buffer = work_buffer(device, self.largest_buffer, "fragment of a pixel", bytes)?;
         let group = self.resolve_group(device, &job.targets, buffer.as_entire_binding());
-        Ok(ExplainPass { pipeline: self.store.get(job.needs.for_accounts()).explain(&self.store), group, buffer })
+        Ok(ExplainPass {
+            pipeline: self.store.get(job.needs.for_accounts(), &custom_text(plan)).explain(&self.store),
+            group,
+            buffer,
+        })
     }
 
     fn prepare_frame(
@@ -186,7 +197,8 @@ impl Renderer {
         let groups = self.groups(device, group, &targets, &needed, maps.as_ref(), screen.as_ref());
         let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
         // Compiled side by side where they are new.
-        let (store, unshaded) = (&self.store, self.store.get(needs.without_shading()));
+        let (store, custom, none) = (&self.store, &custom_text(plan), &Arc::from(""));
+        let unshaded = store.get(needs.without_shading(), none);
         let ((draws, layers), (aov, resolve)) = rayon::join(
             || {
                 let program = program_of(options.engine, after.is_some());
@@ -194,9 +206,9 @@ impl Renderer {
                 (draws, cuts_layers.then(|| unshaded.layers(store)))
             },
             || {
-                let resolve = |needs| store.get(needs).resolve(store);
-                let aov = (options.aovs || needs.screen).then(|| store.get(needs.for_accounts()).aov(store));
-                let of_sample = || ResolvePipelines::Sample(store.get(needs).resolve_sample(store));
+                let resolve = |needs| store.get(needs, custom).resolve(store);
+                let aov = (options.aovs || needs.screen).then(|| store.get(needs.for_accounts(), custom).aov(store));
+                let of_sample = || ResolvePipelines::Sample(store.get(needs, custom).resolve_sample(store));
                 let of_tiles = || {
                     let (inside, outside) = rayon::join(|| resolve(needs), || resolve(needs.outside(plan)));
                     ResolvePipelines::Tiles { inside, outside }
@@ -235,7 +247,7 @@ impl Renderer {
         needs: Needs,
         targets: &Targets,
     ) -> Result<ScreenJob, Error> {
-        let pipelines = self.store.get(needs.for_screen()).screen(&self.store);
+        let pipelines = self.store.get(needs.for_screen(), &Arc::from("")).screen(&self.store);
         let (layout, summed) = (&self.store.layouts.screen, &targets.accumulated);
         ScreenJob::new(device, self.largest_buffer, plan, window, needs.set_words, pipelines, layout, summed)
     }
@@ -324,6 +336,12 @@ impl Renderer {
         let ids = wgpu::BindingResource::TextureView(&targets.ids);
         bindings::group(device, "resolve", &self.store.layouts.resolve, &[layers, heads, fragments, ids, output])
     }
+}
+
+/// The user's own filters of a plan, as WGSL.
+fn custom_text(plan: &Plan) -> Arc<str> {
+    let customs: Vec<&Custom> = plan.customs.iter().map(Arc::as_ref).collect();
+    custom::wgsl(&customs).into()
 }
 
 /// Which fragment function draws each item.

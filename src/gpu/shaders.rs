@@ -46,7 +46,7 @@ const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
 /// Who acts on a fragment.
 const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
 /// What a fragment looks like.
-const SHADING: &[&str] = &[TEXTURE, SOFT, STACK, SHADE, FRAGMENTS];
+const SHADING: &[&str] = &[TEXTURE, SOFT, STACK, CUSTOM, SHADE, FRAGMENTS];
 
 const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
@@ -68,16 +68,20 @@ const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
 const GLASS: &str = include_str!("../../shaders/gpu/glass.wgsl");
 const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
+const CUSTOM: &str = include_str!("../../shaders/gpu/custom.wgsl");
 const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
 const SCREEN: &str = include_str!("../../shaders/gpu/screen.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");
 
-/// The whole WGSL of a module.
-pub fn source(module: Module, needs: &Needs) -> String {
+/// The whole WGSL of a module. `custom`: the user's own filters, as [`custom::wgsl`](crate::custom::wgsl) writes them.
+pub fn source(module: Module, needs: &Needs, custom: &str) -> String {
     let mut text = needs.wgsl();
     text += crate::appearance::FUNCTIONS;
     text += COMMON;
+    if module.parts().iter().any(|parts| parts.contains(&CUSTOM)) {
+        text += custom;
+    }
     for part in module.parts().iter().copied().flatten() {
         text += part;
     }

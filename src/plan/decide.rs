@@ -79,6 +79,8 @@ enum Writes {
     Wires,
     /// The finished picture.
     Screen,
+    /// Surfaces and colours, in a way of the user's own.
+    Anything,
 }
 
 const BASE_COLOR: u32 = 1;
@@ -113,6 +115,7 @@ fn writes(filter: &Filter) -> Writes {
         Filter::Tint { .. } | Filter::Grayscale { .. } | Filter::Invert { .. } | Filter::Brightness { .. } => {
             Writes::Lit
         }
+        Filter::Wgsl { .. } => Writes::Anything,
         Filter::Edges { .. } | Filter::Blur { .. } | Filter::Pixelate { .. } => Writes::Screen,
         Filter::Wireframe { .. } | Filter::Points { .. } => Writes::Wires,
     }
@@ -120,6 +123,8 @@ fn writes(filter: &Filter) -> Writes {
 
 fn filters_commute(f: &Filter, g: &Filter) -> bool {
     match (writes(f), writes(g)) {
+        (Writes::Anything, Writes::Anything | Writes::Factor | Writes::Surface(_) | Writes::Lit)
+        | (Writes::Factor | Writes::Surface(_) | Writes::Lit, Writes::Anything) => false,
         (Writes::Content, Writes::Removal) | (Writes::Removal, Writes::Content) => false,
         (Writes::Wires, Writes::Wires) => match (wire_color(f), wire_color(g)) {
             (Some(a), Some(b)) => a == b,

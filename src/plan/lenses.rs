@@ -143,12 +143,12 @@ pub(super) fn rank_lenses(
     order: &[usize],
     volumes: &[Option<Placed>],
     ops: &mut Ops,
-) -> Vec<Lens> {
+) -> Result<Vec<Lens>, InputError> {
     let mut lenses: Vec<Lens> = Vec::new();
     for (rank, &index) in order.iter().enumerate() {
         let (lens, Some(placed)) = (&spec.lenses[index], &volumes[index]) else { continue };
         let filters: Vec<Filter> = lens.filters.iter().map(|f| f.value.clone()).collect();
-        let own = ops.append(&filters);
+        let own = ops.append(&filters)?;
         let overrides = lens.overlap == OverlapMode::Override;
         lenses.push(Lens {
             name: lens.name.value.clone(),
@@ -167,7 +167,7 @@ pub(super) fn rank_lenses(
             glass: lens.glass.map(GlassRecord::from),
         });
     }
-    lenses
+    Ok(lenses)
 }
 
 /// Ranks of the lenses that a lens of the file names in `hides`.

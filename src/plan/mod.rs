@@ -18,7 +18,10 @@ mod screen;
 mod walk;
 mod warnings;
 
+use std::sync::Arc;
+
 use crate::InputError;
+use crate::custom::Custom;
 use crate::scene::Scene;
 use crate::spec::{Backfaces, Spec};
 use crate::view::View;
@@ -59,6 +62,10 @@ pub struct Plan {
     pub ops: Vec<Op>,
     /// Names of the numbers at vertices that filters read: of [`Primitive::values`](crate::scene::Primitive::values).
     pub channels: Vec<String>,
+    /// The files of the user's own filters, by the numbers that their records have.
+    pub customs: Vec<Arc<Custom>>,
+    /// The values of their parameters, one filter's after the other's.
+    pub custom_words: Vec<u32>,
     /// What can be drawn: the scene, then each content that some `show` names.
     pub contents: Vec<Content>,
     /// What is drawn, in the order that decides ties: by content, node, primitive.
@@ -91,10 +98,10 @@ impl Plan {
         let ranks = lenses::ranks(spec, &volumes, &view);
         let order = graph.total_order(&ranks);
         camera::fit_depths(&mut view, spec, scene, &volumes, &order)?;
-        let mut ops = op::Ops { scene, view: &view, list: Vec::new(), channels: Vec::new() };
-        let lenses = lenses::rank_lenses(spec, &graph, &order, &volumes, &mut ops);
-        let rules = rules::collect(spec, &lenses, &mut ops);
-        let op::Ops { list: ops, channels, .. } = ops;
+        let mut ops = op::Ops::new(spec, scene, &view);
+        let lenses = lenses::rank_lenses(spec, &graph, &order, &volumes, &mut ops)?;
+        let rules = rules::collect(spec, &lenses, &mut ops)?;
+        let op::Ops { list: ops, channels, customs, custom_words, .. } = ops;
         let (contents, items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
@@ -109,6 +116,8 @@ impl Plan {
             rules,
             ops,
             channels,
+            customs,
+            custom_words,
             contents,
             items,
             instances,

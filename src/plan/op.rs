@@ -1,8 +1,13 @@
 //! Filters as both backends run them: one record each, as in `shaders/appearance/surface.wgsl`.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use crate::InputError;
 use crate::appearance as wgsl;
+use crate::custom::{Custom, Given};
 use crate::scene::{Aabb, Scene};
-use crate::spec::{Color, Filter, Quantity, UvMapping};
+use crate::spec::{At, Color, Filter, Quantity, Spec, UvMapping};
 use crate::view::View;
 
 /// One appearance filter with its parameters; the layout of WGSL's `Op`.
@@ -23,11 +28,16 @@ pub struct Op {
 
 /// The records of all lenses and rules while they are gathered.
 pub(super) struct Ops<'a> {
+    pub spec: &'a Spec,
     pub scene: &'a Scene,
     pub view: &'a View,
     pub list: Vec<Op>,
     /// Names of the numbers at vertices that they read: [`super::Plan::channels`].
     pub channels: Vec<String>,
+    /// The user's own filters: [`super::Plan::customs`].
+    pub customs: Vec<Arc<Custom>>,
+    /// The values of their parameters: [`super::Plan::custom_words`].
+    pub custom_words: Vec<u32>,
 }
 
 const NONE: [f32; 4] = [0.0; 4];
@@ -61,7 +71,8 @@ impl Op {
 
     /// Whether it does anything in a stage: 0 on surfaces before they are lit, 1 on lit colours, 2 on coverage.
     pub fn acts_in(&self, stage: usize) -> bool {
-        wgsl::FILTERS[self.kind as usize].stages[stage]
+        let custom = self.kind == wgsl::OP_WGSL.0 && self.flags & [CUSTOM_SURFACE, CUSTOM_COLOR, 0][stage] != 0;
+        custom || wgsl::FILTERS[self.kind as usize].stages[stage]
     }
 
     /// Whether it looks up a quantity of the surface.
@@ -84,6 +95,8 @@ impl Op {
         let color_alpha = self.a[3] < 1.0;
         let has_color = self.flags & wgsl::HAS_COLOR.0 != 0;
         match self.kind {
+            // It may do anything with opacity.
+            k if k == wgsl::OP_WGSL.0 => self.flags & CUSTOM_SURFACE != 0,
             k if k == wgsl::OP_OPACITY.0 => self.a[0] < 1.0,
             k if k == wgsl::OP_GHOST.0 => self.b[0] > 0.0 || (has_color && color_alpha),
             k if k == wgsl::OP_WIREFRAME.0 || k == wgsl::OP_POINTS.0 => true,
@@ -98,25 +111,37 @@ impl Op {
     }
 }
 
-impl Ops<'_> {
+/// Flags of the user's own filters: which functions their files have.
+const CUSTOM_SURFACE: u32 = 1;
+const CUSTOM_COLOR: u32 = 2;
+
+impl<'a> Ops<'a> {
+    pub fn new(spec: &'a Spec, scene: &'a Scene, view: &'a View) -> Self {
+        let (list, channels, customs, custom_words) = Default::default();
+        Self { spec, scene, view, list, channels, customs, custom_words }
+    }
+
     /// Appends the records of a list's appearance filters; their places.
-    pub fn append(&mut self, filters: &[Filter]) -> std::ops::Range<usize> {
+    pub fn append(&mut self, filters: &[Filter]) -> Result<std::ops::Range<usize>, InputError> {
         let first = self.list.len();
         let last_mover = filters.iter().rposition(Filter::moves);
         for (place, filter) in filters.iter().enumerate() {
             let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
-            if let Some(op) = self.record(filter) {
+            if let Some(op) = self.record(filter)? {
                 self.list.push(Op { inner, ..op });
             }
         }
-        first..self.list.len()
+        Ok(first..self.list.len())
     }
 
     /// The record of an appearance filter; `None` for content filters, which act before any surface exists.
-    fn record(&mut self, filter: &Filter) -> Option<Op> {
+    fn record(&mut self, filter: &Filter) -> Result<Option<Op>, InputError> {
         let one = |a: f32| [a, 0.0, 0.0, 0.0];
-        Some(match filter {
-            Filter::Erase { .. } | Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => return None,
+        Ok(Some(match filter {
+            Filter::Erase { .. } | Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => {
+                return Ok(None);
+            }
+            Filter::Wgsl { file, params } => self.custom(file, params)?,
             Filter::Opacity { value } => Op::new(wgsl::OP_OPACITY, one(*value), NONE),
             Filter::Ghost { strength, color } => Op::new(wgsl::OP_GHOST, NONE, one(*strength)).colored(*color),
             Filter::Tint { color, amount } => Op::new(wgsl::OP_TINT, color.to_linear(), one(*amount)),
@@ -157,7 +182,31 @@ impl Ops<'_> {
                     .flagged(wgsl::MATERIAL_ROUGHNESS.0, roughness.is_some())
                     .flagged(wgsl::MATERIAL_EMISSIVE.0, emissive.is_some())
             }
-        })
+        }))
+    }
+
+    /// The number of the file stands where others have their texture, the place of its first value where they have a
+    /// channel.
+    fn custom(&mut self, file: &At<PathBuf>, params: &[Given]) -> Result<Op, InputError> {
+        let source = &self.spec.source;
+        let Some(custom) = self.scene.custom_filters.get(&file.value) else {
+            let message = format!("the scene has not been prepared for the filter file {}", file.value.display());
+            return Err(InputError::at(source, file.span.clone(), message).help("`Scene::prepare_filters` reads it"));
+        };
+        let words = custom.values(source, params)?;
+        let first = self.custom_words.len() as u32;
+        if first >= 1 << 16 {
+            let message = "the filters before this one have too many parameters, 65536 numbers in all".to_owned();
+            return Err(InputError::at(source, file.span.clone(), message).help("use fewer filters of your own"));
+        }
+        self.custom_words.extend(words);
+        let known = self.customs.iter().position(|known| Arc::ptr_eq(known, custom));
+        let number = known.unwrap_or_else(|| {
+            self.customs.push(Arc::clone(custom));
+            self.customs.len() - 1
+        });
+        let op = Op { texture: number as u32, flags: first << 16, ..Op::new(wgsl::OP_WGSL, NONE, NONE) };
+        Ok(op.flagged(CUSTOM_SURFACE, custom.has_surface()).flagged(CUSTOM_COLOR, custom.has_color()))
     }
 
     fn false_color(&mut self, quantity: &Quantity, colormap: &str, range: Option<[f64; 2]>) -> Op {
@@ -277,6 +326,7 @@ pub fn filter_name(filter: &Filter) -> &'static str {
         Filter::Edges { .. } => "edges",
         Filter::Blur { .. } => "blur",
         Filter::Pixelate { .. } => "pixelate",
+        Filter::Wgsl { .. } => "wgsl",
     }
 }
 

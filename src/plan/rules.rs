@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::op::Ops;
 use super::{Item, Lens, LensSet, Op, Plan, filter_name};
+use crate::InputError;
 use crate::spec::{Condition, Filter, Spec};
 
 /// A rule. In stacks it stands at the rank [`Plan::rule_rank`], behind all lenses.
@@ -51,16 +52,16 @@ impl Test {
 }
 
 /// The rules of a spec in their order, their filters behind those of the lenses.
-pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Vec<Rule> {
+pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Result<Vec<Rule>, InputError> {
     let rule = |rule: &crate::spec::OverlapSpec| {
         let filters: Vec<Filter> = rule.filters.iter().map(|f| f.value.clone()).collect();
-        let own = ops.append(&filters);
-        Rule {
+        let own = ops.append(&filters)?;
+        Ok(Rule {
             when: Test::new(&rule.when.value, lenses),
             translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             ops: own,
             filters,
-        }
+        })
     };
     spec.overlaps.iter().map(rule).collect()
 }

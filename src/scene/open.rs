@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
 use super::{MaterialRecord, Model, TextureSet, lens_meshes};
+use crate::custom::Custom;
 use crate::lens::LensMeshes;
 use crate::spec::{At, Filter, Quantity, Spec, suggest};
 use crate::{InputError, color_map};
@@ -25,6 +27,8 @@ pub struct Scene {
     pub filter_textures: BTreeMap<PathBuf, u32>,
     /// The texture, one pixel high, of each colour map that a filter names.
     pub color_maps: BTreeMap<String, u32>,
+    /// The user's own filters, by their files.
+    pub custom_filters: BTreeMap<PathBuf, Arc<Custom>>,
     /// The fitted range of each vertex value that a filter shows.
     pub value_ranges: BTreeMap<String, [f32; 2]>,
     /// The solids of `mesh` shapes.
@@ -91,6 +95,9 @@ impl Scene {
                     self.add_values(quantity, spec)?;
                 }
                 Filter::Contours { quantity, .. } => self.add_values(quantity, spec)?,
+                Filter::Wgsl { file, .. } => {
+                    self.add_custom(&file.value).map_err(|e| e.or_at(&spec.source, file.span.clone()))?;
+                }
                 _ => {}
             }
         }
@@ -139,6 +146,16 @@ impl Scene {
             [] => error.help("its meshes have no attributes of their own, whose names begin with `_`"),
             _ => error.help(suggest::help(&name.value, known)),
         }
+    }
+
+    fn add_custom(&mut self, path: &Path) -> Result<(), InputError> {
+        if !self.custom_filters.contains_key(path) {
+            let text = std::fs::read_to_string(path)
+                .map_err(|error| InputError::new(format!("cannot read {}: {error}", path.display())))?;
+            self.custom_filters
+                .insert(path.to_path_buf(), Arc::new(Custom::parse(&text, &path.display().to_string())?));
+        }
+        Ok(())
     }
 
     fn add_filter_texture(&mut self, path: &Path) -> Result<(), InputError> {

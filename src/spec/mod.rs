@@ -4,7 +4,7 @@ pub mod catalogue;
 mod color;
 mod pattern;
 mod range;
-mod read;
+pub(crate) mod read;
 mod shape;
 mod types;
 

@@ -3,6 +3,7 @@
 //! A value of these types is syntactically right: types, ranges and names of keys have been checked.
 //! What needs the models (node names, bounds) is checked when the scene is opened.
 
+use crate::custom::Given;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -323,6 +324,11 @@ pub enum Filter {
     /// Pixels.
     Pixelate {
         radius: f32,
+    },
+    /// The user's own; what is given for its parameters is checked against its file.
+    Wgsl {
+        file: At<PathBuf>,
+        params: Vec<Given>,
     },
 }
 

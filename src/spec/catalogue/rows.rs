@@ -68,7 +68,7 @@ pub const FILTERS: &[FilterRow] = &[
     built("edges", Screen, "silhouettes, creases and region borders", EDGES),
     built("blur", Screen, "blurs, to push context back", BLUR),
     built("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
-    planned("wgsl", Custom, "a filter of your own, in WGSL", WGSL),
+    built("wgsl", Custom, "a filter of your own, in WGSL", WGSL),
 ];
 
 const WIREFRAME: &[Param] = &[

@@ -10,6 +10,7 @@ use super::suggest;
 use super::table::{entries, only_entry};
 use super::{color, later};
 use crate::InputError;
+use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::{At, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
 
@@ -24,8 +25,8 @@ enum Value {
     Text(At<String>),
     File(At<PathBuf>),
     Patterns(Vec<At<Pattern>>),
-    /// Checked, but no built filter reads it.
-    Other,
+    /// Checked against the filter's own file.
+    Free(Vec<Given>),
 }
 
 /// The filters of a lens or a rule, first to act first.
@@ -209,6 +210,13 @@ impl<'a> Params<'a> {
         }
     }
 
+    fn free(&self, name: &str) -> Vec<Given> {
+        match self.get(name) {
+            Some(Value::Free(given)) => given.clone(),
+            _ => Vec::new(),
+        }
+    }
+
     fn path(&self, name: &str) -> Option<At<PathBuf>> {
         match self.get(name)? {
             Value::File(path) => Some(path.clone()),
@@ -240,11 +248,29 @@ fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
         }
         ParamKind::Patterns => Value::Patterns(item.patterns()?),
         ParamKind::Vector => Value::Vector(item.vector()?),
-        ParamKind::FreeTable => match item.value {
-            DeValue::Table(_) => Value::Other,
-            _ => return Err(item.wrong_type("a table")),
-        },
+        ParamKind::FreeTable => Value::Free(free_table(item)?),
     })
+}
+
+/// Numbers, lists of them, texts and truth values by name.
+fn free_table(item: &Item) -> Result<Vec<Given>, InputError> {
+    let DeValue::Table(map) = item.value else { return Err(item.wrong_type("a table")) };
+    let given = entries(map).into_iter().map(|(name, _, value)| {
+        let item = Item::new(item.file, name, value);
+        let value = match item.value {
+            DeValue::Integer(_) | DeValue::Float(_) => custom::Value::Number(item.number(NumberRange::ANY)?),
+            DeValue::Boolean(value) => custom::Value::Bool(*value),
+            DeValue::String(_) => custom::Value::Text(item.text()?.to_owned()),
+            DeValue::Array(_) => {
+                let numbers = item.list("a list of numbers")?;
+                let numbers = numbers.iter().map(|number| number.number(NumberRange::ANY));
+                custom::Value::Numbers(numbers.collect::<Result<_, _>>()?)
+            }
+            _ => return Err(item.wrong_type("a number, a list of numbers, a text, true or false")),
+        };
+        Ok(Given { name: name.to_owned(), span: item.span.clone(), value })
+    });
+    given.collect()
 }
 
 fn number_or_pair(item: &Item, range: NumberRange) -> Result<[f64; 2], InputError> {
@@ -293,6 +319,7 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
         "toon" => params.number("levels").map(|levels| Filter::Toon { levels: levels as u32 }),
         "hatch" => hatch(params),
         "edges" => edges(params),
+        "wgsl" => params.path("file").map(|file| Filter::Wgsl { file, params: params.free("params") }),
         "blur" => params.number("radius").map(|radius| Filter::Blur { radius }),
         "pixelate" => params.number("radius").map(|radius| Filter::Pixelate { radius }),
         _ => None,

@@ -1,0 +1,4 @@
+fn filter_surface(s: Surface) -> Surface {
+    s.opacity = 0.5;
+    return s;
+}

@@ -1,0 +1,5 @@
+/* A filter that is never said.
+
+fn filter_color(c: vec3f, s: Surface) -> vec3f {
+    return c;
+}

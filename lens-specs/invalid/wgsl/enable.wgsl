@@ -1,0 +1,6 @@
+// Half precision will do.
+enable f16;
+
+fn filter_color(c: vec3f, s: Surface) -> vec3f {
+    return c;
+}

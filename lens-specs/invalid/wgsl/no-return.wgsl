@@ -1,0 +1,3 @@
+fn filter_color(c: vec3f, s: Surface) -> vec3f {
+    let grey = luminance(c);
+}

@@ -1,0 +1,2 @@
+fn filter_color(c: vec3f, s: Surface) -> vec3f {
+    return c;

@@ -1,0 +1,3 @@
+fn filter_surface(s: Surface, p: Params) -> Surface {
+    return s;
+}

@@ -1,0 +1,7 @@
+struct Surface {
+    color: vec3f,
+}
+
+fn filter_surface(s: Surface) -> Surface {
+    return s;
+}

@@ -1,0 +1,3 @@
+fn filter_color(c: vec4f, s: Surface) -> vec4f {
+    return c;
+}

@@ -1,0 +1,3 @@
+fn filter_surface(s: Surface) -> vec3f {
+    return s.base_color;
+}

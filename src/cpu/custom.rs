@@ -1,0 +1,62 @@
+//! The user's own filters on the CPU: the work of `shaders/gpu/custom.wgsl`.
+
+use glam::Vec3;
+
+use super::convert::{g2, g3, v3};
+use crate::appearance as wgsl;
+use crate::custom::SurfaceValue;
+use crate::plan::Plan;
+
+/// Where a filter acts: around the eye, along the world's axes.
+pub struct Site<'a> {
+    pub plan: &'a Plan,
+    pub position: Vec3,
+}
+
+impl Site<'_> {
+    fn seen(&self, s: &wgsl::Surface) -> SurfaceValue {
+        let view = &self.plan.view;
+        SurfaceValue {
+            position: (self.position + view.eye.as_vec3()).to_array(),
+            normal: g3(s.normal).to_array(),
+            view: g3(s.view).to_array(),
+            base_color: g3(wgsl::base_color(*s)).to_array(),
+            metallic: s.metallic,
+            roughness: s.roughness,
+            emissive: g3(s.emissive).to_array(),
+            occlusion: s.occlusion,
+            opacity: wgsl::surface_opacity(*s),
+            unlit: s.unlit,
+            pixel: g2(s.pixel).to_array(),
+            depth: self.position.dot(view.forward.as_vec3()),
+        }
+    }
+
+    pub fn filtered(&self, op: &wgsl::Op, before: wgsl::Surface) -> wgsl::Surface {
+        let seen = self.seen(&before);
+        let made = self.plan.customs[op.texture as usize].surface(&seen, self.words(op));
+        let mut s = before;
+        s.normal = v3(Vec3::from_array(made.normal).normalize_or(g3(before.normal)));
+        if made.base_color != seen.base_color {
+            s = wgsl::with_base_color(s, super::convert::v4(Vec3::from_array(made.base_color).extend(1.0)));
+        }
+        s.metallic = made.metallic;
+        s.roughness = made.roughness;
+        s.emissive = v3(Vec3::from_array(made.emissive));
+        s.occlusion = made.occlusion;
+        // What the filter makes of the whole opacity, the stack makes of its share.
+        s.opacity = before.opacity * (made.opacity / seen.opacity.max(1e-6));
+        s.unlit = made.unlit;
+        s
+    }
+
+    pub fn colored(&self, op: &wgsl::Op, color: Vec3, s: &wgsl::Surface) -> Vec3 {
+        let custom = &self.plan.customs[op.texture as usize];
+        Vec3::from_array(custom.color(color.to_array(), &self.seen(s), self.words(op)))
+    }
+
+    /// The values of the filter's parameters, and of those behind it.
+    fn words(&self, op: &wgsl::Op) -> &[u32] {
+        &self.plan.custom_words[wgsl::op_channel(*op) as usize..]
+    }
+}
