@@ -20,6 +20,9 @@ pub const ALL: &[(&str, Test)] = &[
     ("four_samples_over_nothing", four_samples_over_nothing),
     ("lists_that_overflow", lists_that_overflow),
     ("windows", windows),
+    ("windows_of_the_screen", windows_of_the_screen),
+    ("random_stacks", crate::stacks::random_stacks),
+    ("filters_of_the_screen", filters_of_the_screen),
     ("too_small_a_device", too_small_a_device),
     ("run_to_run", run_to_run),
     ("a_difference_is_found", a_difference_is_found),
@@ -137,14 +140,45 @@ fn lists_that_overflow(device: &Headless) -> Result<(), String> {
 
 /// With little memory the picture is drawn in parts, and is the same.
 fn windows(device: &Headless) -> Result<(), String> {
-    let (scene, plan) = planned(SIZE, 1, PERSPECTIVE, &every_shape_text());
+    in_windows(device, &every_shape_text(), 100_000)
+}
+
+/// Filters of the screen look over the edges of windows.
+fn windows_of_the_screen(device: &Headless) -> Result<(), String> {
+    let filters = "{ edges = { width = 3 } }, { blur = { radius = 6 } }, { pixelate = { radius = 2 } }";
+    let lens = "shape.sphere = { center = [0, 0.1, 0.1], radius = 0.7 }\nglass = false";
+    in_windows(device, &format!("[[lens]]\nname = \"a\"\n{lens}\nfilters = [{filters}]\n"), 300_000)
+}
+
+/// A picture whose buffers may have so many bytes against the whole one.
+fn in_windows(device: &Headless, lenses: &str, bytes: u64) -> Result<(), String> {
+    let (scene, plan) = planned(SIZE, 1, PERSPECTIVE, lenses);
     for engine in ENGINES {
         let options = RenderOptions { engine, aovs: true };
         let whole = device.render(&scene, &plan, options).map_err(|e| e.to_string())?;
         let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
-        renderer.limit_buffers(100_000);
+        renderer.limit_buffers(bytes);
         let parts = device.render_with(&mut renderer, &scene, &plan, options, &mut None).map_err(|e| e.to_string())?;
         agree(&whole, &parts).map_err(|e| format!("{engine:?}: {e}"))?;
+    }
+    Ok(())
+}
+
+/// In stack order, over regions that overlap, with several samples a pixel, and by a rule.
+fn filters_of_the_screen(device: &Headless) -> Result<(), String> {
+    let lens = |name: &str, x: f64, filters: &str| {
+        let shape = format!("shape.sphere = {{ center = [{x}, 0.1, 0.2], radius = 0.45 }}");
+        format!("[[lens]]\nname = \"{name}\"\n{shape}\nfilters = [{filters}]\nglass = false\n")
+    };
+    let lenses = [
+        lens("a", -0.3, "{ blur = { radius = 3 } }, \"invert\""),
+        lens("b", 0.2, "\"edges\", { opacity = { value = 0.6 } }"),
+        lens("c", 0.5, "{ pixelate = { radius = 2 } }"),
+        "[[overlap]]\nwhen = \"b & c\"\nfilters = [\"blur\", { edges = { color = \"red\", width = 2 } }]\n".into(),
+    ];
+    for (camera, samples) in [(PERSPECTIVE, 4), (ORTHOGRAPHIC, 1)] {
+        let (scene, plan) = planned(SIZE, samples, camera, &lenses.concat());
+        check(device, &scene, &plan)?;
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ mod host;
 mod intervals;
 mod limits;
 mod scene;
+mod stacks;
 
 use std::process::ExitCode;
 use std::sync::Arc;

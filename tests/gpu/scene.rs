@@ -15,7 +15,8 @@ pub fn planned(size: [u32; 2], samples: u32, camera: &str, lenses: &str) -> (Sce
         size[0], size[1]
     );
     let spec = Spec::parse(&text, "spec of a test", "".as_ref()).expect("the test's spec is right");
-    let scene = Scene::new(vec![model()], vec![]);
+    let mut scene = Scene::new(vec![model()], vec![]);
+    scene.prepare_filters(&spec).expect("the test's filters are right");
     let plan = Plan::new(&spec, &scene).expect("the test's plan is right");
     (scene, plan)
 }
