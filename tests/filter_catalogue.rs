@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use lenspeel::cli::filters_text;
+use lenspeel::appearance::FILTERS as FILES;
+use lenspeel::cli::{filter_text, filters_markdown, filters_text};
 use lenspeel::spec::catalogue::{FILTERS, FilterRow, Param, ParamDefault, ParamKind};
 use lenspeel::spec::{Filter, Spec};
 
@@ -116,4 +117,32 @@ fn names_are_unique() {
 #[test]
 fn the_listing_is_as_recorded() {
     insta::assert_snapshot!(filters_text());
+}
+
+/// The page beside the pictures. `LENSPEEL_UPDATE_GOLDENS=1` writes it.
+#[test]
+fn the_page_of_filters_is_up_to_date_and_its_pictures_are_there() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("lens-specs/filters/README.md");
+    let page = filters_markdown();
+    if std::env::var_os("LENSPEEL_UPDATE_GOLDENS").is_some_and(|value| value == "1") {
+        std::fs::write(&path, &page).expect("a writable folder");
+    }
+    let written = std::fs::read_to_string(&path).expect("the page is part of the project");
+    assert!(written == page, "write it with LENSPEEL_UPDATE_GOLDENS=1 cargo test --test filter_catalogue");
+    for part in page.split("](").skip(1) {
+        let picture = part.split(')').next().expect("a link ends");
+        assert!(path.with_file_name("").join(picture).is_file(), "{picture}");
+    }
+}
+
+#[test]
+fn every_filter_has_a_file_that_documents_it() {
+    for row in FILTERS {
+        let file =
+            FILES.iter().find(|file| file.name == row.name).unwrap_or_else(|| panic!("{} has no file", row.name));
+        assert!(file.text.len() > 40 && file.text.ends_with('.'), "{}: {}", row.name, file.text);
+        let text = filter_text(row.name).expect("it is a filter");
+        assert!(text.contains(row.help) && text.contains(file.text), "{text}");
+    }
+    assert_eq!(FILES.len(), FILTERS.len(), "and no file stands for none");
 }

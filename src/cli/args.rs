@@ -46,7 +46,13 @@ pub enum Command {
         output: Option<PathBuf>,
     },
     /// List the filters with their parameters
-    Filters,
+    Filters {
+        /// Only this one, with what its documentation says
+        name: Option<String>,
+        /// A page of all, in Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
     /// Print a JSON Schema of lens-spec files, for editors
     Schema,
 }

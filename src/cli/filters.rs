@@ -1,11 +1,30 @@
-//! `lenspeel filters`: the catalogue as an aligned listing.
+//! `lenspeel filters`: the catalogue as an aligned listing, one filter with its documentation, or a page of all.
 
-use crate::spec::catalogue::{FILTERS, FilterRow, Param};
+use crate::InputError;
+use crate::appearance::FILTERS as FILES;
+use crate::spec::catalogue::{FILTERS, FilterRow, Param, filter};
+use crate::spec::suggest;
 
 /// Every filter with its parameters: type, range, default, a line of help.
 pub fn filters_text() -> String {
     let blocks: Vec<String> = FILTERS.iter().map(block).collect();
     blocks.join("\n")
+}
+
+/// One filter with its parameters and what its file says of it.
+pub fn filter_text(name: &str) -> Result<String, InputError> {
+    let row = filter(name).ok_or_else(|| {
+        let names = FILTERS.iter().map(|row| row.name);
+        InputError::new(format!("there is no filter `{name}`")).help(suggest::help(name, names))
+    })?;
+    Ok(format!("{}\n{}\n", block(row), documentation(row)))
+}
+
+/// All filters as a page in Markdown, with pictures beside the specs in `lens-specs/filters`.
+pub fn filters_markdown() -> String {
+    let head = "# The filters\n\n`lenspeel filters --markdown` writes this page, from the files under `shaders/filters` and \
+        the catalogue;\nspecs beside the pictures draw them. Where a default is not a value, it is said in words.\n";
+    FILTERS.iter().fold(head.to_owned(), |page, row| page + "\n" + &section(row))
 }
 
 /// Widths that a filter's longest entries need.
@@ -28,8 +47,7 @@ impl Columns {
 
 fn block(row: &FilterRow) -> String {
     let moves = if row.moves { ", moves" } else { "" };
-    let built = if row.built { "" } else { " [not built yet]" };
-    let mut text = format!("{} ({}{moves}): {}{built}\n", row.name, row.kind, row.help);
+    let mut text = format!("{} ({}{moves}): {}{}\n", row.name, row.kind, row.help, waits(row.built));
     let columns = Columns::of(row.params);
     for param in row.params {
         text.push_str(&line(param, row.built, &columns));
@@ -39,12 +57,51 @@ fn block(row: &FilterRow) -> String {
 
 fn line(param: &Param, row_built: bool, columns: &Columns) -> String {
     let Columns { name, kind, default } = columns;
-    let waits = if row_built && !param.built { " [not built yet]" } else { "" };
     format!(
-        "    {:<name$}  {:<kind$}  {:<default$}  {}{waits}\n",
+        "    {:<name$}  {:<kind$}  {:<default$}  {}{}\n",
         param.name,
         param.kind.to_string(),
         param.default.to_string(),
-        param.help
+        param.help,
+        waits(param.built || !row_built)
     )
+}
+
+fn waits(built: bool) -> &'static str {
+    if built { "" } else { " [not built yet]" }
+}
+
+/// What a filter's own file says of it.
+fn documentation(row: &FilterRow) -> &'static str {
+    FILES.iter().find(|file| file.name == row.name).map_or("", |file| file.text)
+}
+
+fn section(row: &FilterRow) -> String {
+    let FilterRow { name, kind, help, .. } = row;
+    let moves = if row.moves { ", moves content" } else { "" };
+    let mut text = format!("## `{name}`\n\n*{kind}{moves}*: {help}{}.\n", waits(row.built));
+    if row.built {
+        text += &format!("\n![{name}]({})\n", picture(name));
+    }
+    text += &format!("\n{}\n", documentation(row));
+    if !row.params.is_empty() {
+        text += "\n| parameter | value | default | |\n|---|---|---|---|\n";
+    }
+    for Param { name, kind, default, built, help } in row.params {
+        let kind = kind.to_string().replace('|', "\\|");
+        text += &format!("| `{name}` | {kind} | {default} | {help}{} |\n", waits(*built || !row.built));
+    }
+    text
+}
+
+/// The picture that shows a filter best, from the folder of the page.
+fn picture(name: &str) -> String {
+    match name {
+        "show" => "show-alternate.png".into(),
+        "material" => "material-all.png".into(),
+        "texture" => "texture-box.png".into(),
+        "magnify" | "displace" => format!("../movers/{name}.png"),
+        "wgsl" => "../wgsl/stripes.png".into(),
+        _ => format!("{name}.png"),
+    }
 }

@@ -28,7 +28,7 @@ use crate::scene::Model;
 use crate::spec::Spec;
 use args::{Cli, Command};
 
-pub use filters::filters_text;
+pub use filters::{filter_text, filters_markdown, filters_text};
 pub use info::info_text;
 pub use init::init_text;
 pub use report::report;
@@ -53,8 +53,9 @@ pub fn run() -> ExitCode {
         .help("build it with default features")),
         Command::Info { model } => Model::load(&model, None).map(|m| print(&info_text(&m))),
         Command::Init { model, output } => init_command(&model, output.as_deref()),
-        Command::Filters => {
-            print(&filters_text());
+        Command::Filters { name: Some(name), .. } => filters::filter_text(&name).map(|text| print_wrapped(&text)),
+        Command::Filters { markdown, .. } => {
+            print(&if markdown { filters_markdown() } else { filters_text() });
             Ok(())
         }
         Command::Schema => {
