@@ -1,11 +1,12 @@
 // Light as pen strokes: lit faces stay plain, and the darker a face, the more lines cross it, in up to three directions.
-// Lines are `spacing` pixels apart and `width` pixels wide, in `color`, on the surface's own unlit colour; they lie in the
-// picture, not on the surface.
+// Lines are `spacing` pixels apart and `width` pixels wide, in `color`, on the surface's own unlit colour, or over a false
+// colour; they lie in the picture, not on the surface.
 
 fn hatch_surface(op: Op, before: Surface) -> Surface {
     var s = before;
     s.hatch = vec4f(op.a.rgb, 1.0);
     s.hatch_lines = op.b.xy;
+    s.unlit = 0.0;
     s.opacity = s.opacity * op.a.a;
     return s;
 }

@@ -1,9 +1,10 @@
 // Light in a few flat steps, as in a drawn film: `levels` of them, evenly spaced up to full light, at which a surface has
-// its plain base colour. Colours keep their hue, and nothing is brighter.
+// its plain base colour. Colours keep their hue, and nothing is brighter. Over an unlit surface it brings light back.
 
 fn toon_surface(op: Op, before: Surface) -> Surface {
     var s = before;
     s.toon = vec2f(op.b.x, 1.0);
+    s.unlit = 0.0;
     return s;
 }
 

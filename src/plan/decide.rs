@@ -69,7 +69,7 @@ enum Writes {
     Removal,
     /// Puts other content in place.
     Content,
-    /// Factors of the opacity, or lighting switched off: in any order the same comes out.
+    /// Factors of the opacity, or lighting switched off alone: in any order the same comes out.
     Factor,
     /// Material values, as `BASE_COLOR` and its like.
     Surface(u32),
@@ -121,7 +121,23 @@ fn writes(filter: &Filter) -> Writes {
     }
 }
 
+/// Whether a filter switches lighting on, or off.
+fn lights(filter: &Filter) -> Option<bool> {
+    match filter {
+        Filter::Unlit { .. }
+        | Filter::Normals
+        | Filter::FalseColor { .. }
+        | Filter::Ghost { color: Some(_), .. }
+        | Filter::Contours { .. } => Some(false),
+        Filter::Toon { .. } | Filter::Hatch { .. } => Some(true),
+        _ => None,
+    }
+}
+
 fn filters_commute(f: &Filter, g: &Filter) -> bool {
+    if lights(f).zip(lights(g)).is_some_and(|(f, g)| f != g) {
+        return false;
+    }
     match (writes(f), writes(g)) {
         (Writes::Anything, Writes::Anything | Writes::Factor | Writes::Surface(_) | Writes::Lit)
         | (Writes::Factor | Writes::Surface(_) | Writes::Lit, Writes::Anything) => false,

@@ -62,7 +62,8 @@ fn surface(random: &mut Random) -> wgsl::Surface {
         texel: Vec4::new(number(), number(), number(), number()),
         metallic: number(),
         roughness: number(),
-        emissive: Vec3::new(number(), number(), number()),
+        // So little that there is shade.
+        emissive: Vec3::new(0.1 * number(), 0.1 * number(), 0.1 * number()),
         occlusion: 1.0,
         alpha_mode: if number() < 0.5 { wgsl::ALPHA_BLEND.0 } else { wgsl::ALPHA_OPAQUE.0 },
         alpha_cutoff: 0.5,
@@ -88,7 +89,7 @@ fn seen(stack: [&Op; 2], surface: wgsl::Surface, edge: f32, value: f32) -> [f32;
     let surface = ops.iter().fold(surface, |s, op| wgsl::filter_surface(*op, s, reading(op)));
     let base = wgsl::base_color(surface);
     let gloss = 0.1 * surface.roughness;
-    let dull = 1.0 - surface.metallic;
+    let dull = 0.6 * (1.0 - surface.metallic);
     let lit = Vec3::new(base.x * dull + gloss, base.y * dull + gloss, base.z * dull + gloss);
     let color = ops.iter().fold(wgsl::emitted(surface, lit), |c, op| wgsl::filter_color(*op, c));
     let shaded = wgsl::Shaded { color, opacity: wgsl::surface_opacity(surface), coverage: 1.0 };
