@@ -202,6 +202,7 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             after_depth,
             after_key,
             after_item,
+            tone_mapping,
             eye,
             picture_scale,
             by_pixel,

@@ -5,7 +5,7 @@ use std::path::Path;
 use lenspeel::InputError;
 use lenspeel::spec::{
     At, Attach, CameraPlace, Color, Condition, Convex, Filter, ImageSpec, ProjectionSpec, Rotation, SceneChoice, Shape,
-    ShowWhat, Spec,
+    ShowWhat, Spec, ToneMapping,
 };
 use proptest::prelude::*;
 
@@ -27,7 +27,10 @@ fn scene_and_image() {
     assert_eq!(spec.scene.scene.map(|choice| choice.value), Some(SceneChoice::Name("Assembly".to_owned())));
     let alternates: Vec<&str> = spec.scene.alternates.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(alternates, ["zebra", "bones"], "file order");
-    assert_eq!(spec.image, ImageSpec { size: [640, 480], samples: 9, background: None });
+    assert_eq!(
+        spec.image,
+        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None }
+    );
 }
 
 #[test]

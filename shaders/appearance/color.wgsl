@@ -14,6 +14,29 @@ fn linear_from_srgb3(c: vec3f) -> vec3f {
     return vec3f(linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z));
 }
 
+const TONE_NONE: u32 = 0u;
+const TONE_NEUTRAL: u32 = 1u;
+
+// Brings colours of any brightness into 0..1. Neutral: the PBR Neutral operator of the Khronos Group (2024), which keeps the
+// hue and saturation of what is lit well and bends highlights towards white.
+fn tone_mapped(mapping: u32, c: vec3f) -> vec3f {
+    if mapping != TONE_NEUTRAL {
+        return c;
+    }
+    let least = min(c.x, min(c.y, c.z));
+    let offset = select(0.04, least - 6.25 * least * least, least < 0.08);
+    let color = c - vec3f(offset);
+    let peak = max(color.x, max(color.y, color.z));
+    let start = 0.8 - 0.04;
+    if peak < start {
+        return color;
+    }
+    let room = 1.0 - start;
+    let bent = 1.0 - room * room / (peak + room - start);
+    let white = 1.0 - 1.0 / (0.15 * (peak - bent) + 1.0);
+    return mix(color * (bent / peak), vec3f(bent), white);
+}
+
 // Relative luminance of BT.709 primaries.
 fn luminance(c: vec3f) -> f32 {
     return dot(c, vec3f(0.2126, 0.7152, 0.0722));

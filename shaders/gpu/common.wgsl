@@ -68,6 +68,11 @@ struct Frame {
     after_depth: f32,
     after_key: u32,
     after_item: u32,
+    // TONE_...
+    tone_mapping: u32,
+    pad_a: u32,
+    pad_b: u32,
+    pad_c: u32,
     // Of the eye: world space.
     eye: vec3f,
     // Two over the picture's height, at depth 1 for a perspective camera.

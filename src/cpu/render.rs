@@ -4,6 +4,7 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::block::Block;
+use super::convert::{g3, v3};
 use super::pixel::{Scratch, Tracer};
 use super::screen::{self, Plane};
 use crate::appearance as wgsl;
@@ -253,6 +254,12 @@ impl<'a> Renderer<'a> {
 
     /// Puts a premultiplied linear colour over the background and encodes it.
     fn finish(&self, front: Vec4) -> [u8; 4] {
+        let mut front = front;
+        if front.w > 0.0 {
+            // The background comes out as given.
+            let mapped = g3(wgsl::tone_mapped(self.plan.tone_mapping, v3(front.truncate() / front.w)));
+            front = (mapped * front.w).extend(front.w);
+        }
         let [r, g, b, a] = self.plan.background;
         let back = Vec4::new(r, g, b, 1.0) * a;
         let sum = front + back * (1.0 - front.w);

@@ -120,6 +120,8 @@ impl FrameShape<'_> {
             after_depth: self.after.map_or(0.0, |place| place.depth),
             after_key: self.after.map_or(u32::MAX, |place| place.key),
             after_item: self.after.map_or(0, |place| place.item),
+            tone_mapping: plan.tone_mapping,
+            pad: [0; 3],
             eye: view.eye.as_vec3().to_array(),
             picture_scale: (1.0 / half_height(view)) as f32,
             by_pixel: all_words(&plan.by_pixel),

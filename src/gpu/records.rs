@@ -61,6 +61,9 @@ pub struct FrameRecord {
     pub after_key: u32,
     /// Into `Plan::instances`.
     pub after_item: u32,
+    /// `TONE_...` of the shaders.
+    pub tone_mapping: u32,
+    pub pad: [u32; 3],
     /// World space.
     pub eye: [f32; 3],
     /// Two over the picture's height, at depth 1 for a perspective camera.

@@ -21,9 +21,10 @@ mod warnings;
 use std::sync::Arc;
 
 use crate::InputError;
+use crate::appearance as wgsl;
 use crate::custom::Custom;
 use crate::scene::Scene;
-use crate::spec::{Backfaces, Spec};
+use crate::spec::{Backfaces, Spec, ToneMapping};
 use crate::view::View;
 
 pub use crate::lens::{LensSet, MAX_LENSES, MAX_RULES};
@@ -49,6 +50,8 @@ pub struct Plan {
     pub samples: u32,
     /// Linear light, straight alpha.
     pub background: [f32; 4],
+    /// `TONE_...` of the shaders: how colours brighter than the picture can show are brought into it.
+    pub tone_mapping: u32,
     /// Back faces of single-sided materials are left out.
     pub cull_backfaces: bool,
     pub lighting: Lighting,
@@ -106,6 +109,10 @@ impl Plan {
         let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
             samples: spec.image.samples,
+            tone_mapping: match spec.image.tone_mapping {
+                ToneMapping::None => wgsl::TONE_NONE.0,
+                ToneMapping::Neutral => wgsl::TONE_NEUTRAL.0,
+            },
             background: spec.image.background.map_or([0.0; 4], |c| c.to_linear()),
             cull_backfaces: spec.scene.backfaces == Backfaces::AsMaterial,
             lighting: light::resolve(spec, scene, &view),

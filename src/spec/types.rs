@@ -114,6 +114,7 @@ pub struct ImageSpec {
     pub samples: u32,
     /// `None` is transparent.
     pub background: Option<Color>,
+    pub tone_mapping: ToneMapping,
 }
 
 impl ImageSpec {
@@ -123,7 +124,12 @@ impl ImageSpec {
 
 impl Default for ImageSpec {
     fn default() -> Self {
-        Self { size: [1280, 720], samples: 4, background: Some(Color::rgb(0x1e, 0x22, 0x27)) }
+        Self {
+            size: [1280, 720],
+            samples: 4,
+            background: Some(Color::rgb(0x1e, 0x22, 0x27)),
+            tone_mapping: ToneMapping::None,
+        }
     }
 }
 
@@ -163,6 +169,15 @@ pub struct LensSpec {
     /// Width over which the effect fades in from the boundary, scene units; 0: a sharp one.
     pub soft: f64,
     pub glass: Option<Glass>,
+}
+
+/// How colours brighter than a picture can show are brought into it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToneMapping {
+    /// They are cut off at white.
+    None,
+    /// The PBR Neutral operator of the Khronos Group.
+    Neutral,
 }
 
 /// Name patterns for nodes and materials.

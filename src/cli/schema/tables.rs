@@ -49,6 +49,11 @@ pub fn image() -> Value {
         "size": described(size, "Width and height, pixels.", json!([1280, 720])),
         "samples": described(json!({ "enum": [1, 4, 9, 16] }), "Per pixel.", json!(4)),
         "background": described(reference("color"), "A colour or \"transparent\".", json!("#1e2227")),
+        "tone_mapping": described(
+            json!({ "enum": ["none", "neutral"] }),
+            "How colours brighter than white are shown: cut off, or bent by Khronos PBR Neutral.",
+            json!("none")
+        ),
     });
     described(table(&[], properties), "The picture.", NONE)
 }

@@ -6,7 +6,7 @@ use super::item::Item;
 use super::keys;
 use super::table::Table;
 use crate::InputError;
-use crate::spec::{Color, ImageSpec};
+use crate::spec::{Color, ImageSpec, ToneMapping};
 
 pub fn read(item: &Item) -> Result<ImageSpec, InputError> {
     let table = Table::open(item, "[image]", keys::IMAGE)?;
@@ -15,6 +15,7 @@ pub fn read(item: &Item) -> Result<ImageSpec, InputError> {
         size: table.read("size", size)?.unwrap_or(default.size),
         samples: table.read("samples", samples)?.unwrap_or(default.samples),
         background: table.read("background", background)?.unwrap_or(default.background),
+        tone_mapping: table.read("tone_mapping", tone_mapping)?.unwrap_or(default.tone_mapping),
     })
 }
 
@@ -36,6 +37,10 @@ fn samples(item: &Item) -> Result<u32, InputError> {
         samples @ (1 | 4 | 9 | 16) => Ok(samples as u32),
         other => Err(item.error(format!("`samples` must be 1, 4, 9 or 16, not {other}"))),
     }
+}
+
+fn tone_mapping(item: &Item) -> Result<ToneMapping, InputError> {
+    item.choice(&[("none", ToneMapping::None), ("neutral", ToneMapping::Neutral)])
 }
 
 /// `None` is transparent.
