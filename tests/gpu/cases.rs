@@ -21,6 +21,7 @@ pub const ALL: &[(&str, Test)] = &[
     ("lists_that_overflow", lists_that_overflow),
     ("windows", windows),
     ("windows_of_the_screen", windows_of_the_screen),
+    ("sixty_four_sheets", crate::panes::sixty_four_sheets),
     ("random_stacks", crate::stacks::random_stacks),
     ("filters_of_the_screen", filters_of_the_screen),
     ("too_small_a_device", too_small_a_device),

@@ -10,6 +10,7 @@ mod compounds;
 mod host;
 mod intervals;
 mod limits;
+mod panes;
 mod scene;
 mod stacks;
 
