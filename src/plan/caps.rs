@@ -89,7 +89,8 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
     Some((format!("{}:{line}", spec.source.name), name))
 }
 
-/// The nodes that may be cut, in each of the ways in which all of them is shown.
+/// The nodes that may be cut, in each of the ways in which all of them is shown; the smallest first: of those that lie in
+/// each other the inner ones.
 pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
     // By the content, the node and the lenses that move it.
     let mut ways: BTreeMap<(usize, usize, Vec<usize>), Body> = BTreeMap::new();
@@ -110,7 +111,13 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
         let first = &items[instances[body.members[0].instance].item];
         items.iter().filter(|item| is_node_of(first, item)).count() == body.members.len()
     };
-    ways.into_values().filter(is_whole).collect()
+    let size = |body: &Body| {
+        let first = &items[instances[body.members[0].instance].item];
+        scene.models[first.model].node_bounds(first.node).size().element_product()
+    };
+    let mut bodies: Vec<Body> = ways.into_values().filter(is_whole).collect();
+    bodies.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    bodies
 }
 
 impl Item {

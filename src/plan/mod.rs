@@ -74,7 +74,7 @@ pub struct Plan {
     pub items: Vec<Item>,
     /// Every way in which an item may be seen: all items in place, in their order, then those that lenses move.
     pub instances: Vec<Instance>,
-    /// The nodes that erasers with `cap` may cut.
+    /// The nodes that erasers with `cap` may cut. Where several have a cap at one boundary, the first of them here has it.
     pub bodies: Vec<Body>,
     /// The middle and the longest side of the scene's bounds, for projected textures.
     pub texture_space: TextureSpace,

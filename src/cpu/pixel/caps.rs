@@ -74,15 +74,23 @@ impl Tracer<'_> {
             None
         });
         crossings.sort_unstable_by_key(|crossing| (crossing.ray, crossing.body));
-        for own in crossings.chunk_by(|a, b| (a.ray, a.body) == (b.ray, b.body)) {
-            let Crossing { ray, body, .. } = own[0];
-            let one = &mut rays[ray as usize];
-            self.close_body(&self.plan.bodies[body as usize], own, one, |cap| listed.push((ray, cap)));
+        let mut caps: Vec<(f64, Fragment)> = Vec::new();
+        for met in crossings.chunk_by(|a, b| a.ray == b.ray) {
+            let ray = met[0].ray;
+            caps.clear();
+            for own in met.chunk_by(|a, b| a.body == b.body) {
+                let body = &self.plan.bodies[own[0].body as usize];
+                self.close_body(body, own, &mut rays[ray as usize], |boundary, cap| caps.push((boundary, cap)));
+            }
+            // Stable: at one boundary the first body stays first.
+            caps.sort_by(|a, b| a.0.total_cmp(&b.0));
+            caps.dedup_by(|next, first| !starts_boundary(first.0, next.0));
+            listed.extend(caps.iter().map(|(_, cap)| (ray, *cap)));
         }
     }
 
     /// The caps of one body on a ray, in front of where it surely ends.
-    fn close_body(&self, body: &Body, crossings: &[Crossing], one: &mut OneRay, mut found: impl FnMut(Fragment)) {
+    fn close_body(&self, body: &Body, crossings: &[Crossing], one: &mut OneRay, mut found: impl FnMut(f64, Fragment)) {
         let OneRay { ray, layers, moved, opaque, .. } = one;
         // Members are moved alike.
         let steps = &self.plan.instances[body.members[0].instance].steps;
@@ -97,13 +105,14 @@ impl Tracer<'_> {
                 if behind { layers(steps).set_at(boundary) } else { layers(steps).set_before(boundary) }
             };
             if let Some(closing) = self.plan.closing(shown, set) {
-                found(Fragment {
+                let cap = Fragment {
                     instance: *instance as u32,
                     triangle: cap_number(closing.maker),
                     depth: boundary as f32,
                     weights: cap_normal(self.plan, shown, ray, boundary, &closing),
                     region: closing.region,
-                });
+                };
+                found(boundary, cap);
             }
         }
     }
