@@ -4,7 +4,7 @@
 use std::{env, error::Error, fmt::Write as _, fs, path::Path};
 
 /// In the order in which they are joined; a file may use what an earlier or later one declares.
-const FILES: [&str; 8] = ["surface", "color", "filters", "geometry", "texture", "light", "glass", "screen"];
+const FILES: [&str; 9] = ["surface", "color", "filters", "geometry", "texture", "light", "glass", "screen", "cap"];
 const FILTERS: &str = "shaders/filters";
 
 /// Where filters act on a fragment: the end of their functions' names, the joined function's parameters, and its result.

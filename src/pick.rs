@@ -4,8 +4,8 @@ use glam::{DVec3, Vec3};
 use serde::Serialize;
 
 use crate::frame::{Aovs, NOTHING};
-use crate::output::Entry;
-use crate::pixel::Visible;
+use crate::output::{Actor, Entry};
+use crate::pixel::{Visible, cap_maker};
 use crate::plan::{Plan, Region};
 use crate::scene::Scene;
 
@@ -14,7 +14,7 @@ use crate::scene::Scene;
 pub struct Pick {
     /// Into [`Plan::instances`].
     pub instance: u32,
-    /// Into the item's triangles.
+    /// Into the item's triangles; of a cap see [`cap_number`](crate::pixel::cap_number).
     pub triangle: u32,
     /// Along the forward axis, scene units.
     pub depth: f32,
@@ -99,7 +99,10 @@ pub struct NamedSurface<'a> {
     pub path: Vec<String>,
     /// Of the node's mesh.
     pub primitive: usize,
-    pub triangle: u32,
+    /// Null for a cap.
+    pub triangle: Option<u32>,
+    /// Whose cap it is, where it is one.
+    pub cap: Option<Actor>,
     pub material: Object,
     /// The lenses that move it, the highest first.
     pub moved_by: Vec<&'a str>,
@@ -124,6 +127,7 @@ impl<'a> NamedSurface<'a> {
         let up = std::iter::successors(Some(item.node), |node| model.nodes[*node].parent);
         let mut path: Vec<String> = up.map(|node| model.node_label(node)).collect();
         path.reverse();
+        let cap = cap_maker(triangle);
         let material = item.material - scene.material_base[item.model];
         Self {
             model: &model.name,
@@ -131,7 +135,8 @@ impl<'a> NamedSurface<'a> {
             node: Object { index: item.node, name: model.node_label(item.node) },
             path,
             primitive: item.primitive,
-            triangle,
+            triangle: cap.is_none().then_some(triangle),
+            cap: cap.map(|maker| Actor::of(plan, maker)),
             material: Object { index: material, name: model.material_label(material) },
             moved_by: instance.steps.iter().map(|step| plan.lenses[step.rank].name.as_str()).collect(),
             lenses: plan.names(region.set),

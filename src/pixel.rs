@@ -3,18 +3,32 @@
 use glam::Vec3;
 
 use crate::appearance::OPAQUE_FROM;
+use crate::frame::NOTHING;
 use crate::lens::LayerStart;
 use crate::plan::{LensSet, Region};
+
+/// The first of the numbers that caps have in place of a triangle's.
+pub const FIRST_CAP: u32 = NOTHING - 512;
+
+/// The number that a cap has in place of a triangle's: it tells the lens or rule that makes it, by its rank.
+pub fn cap_number(maker: usize) -> u32 {
+    FIRST_CAP + maker as u32
+}
+
+/// The rank of the lens or rule whose cap has this number; `None` for a triangle.
+pub fn cap_maker(triangle: u32) -> Option<usize> {
+    (FIRST_CAP..NOTHING).contains(&triangle).then(|| (triangle - FIRST_CAP) as usize)
+}
 
 /// A surface sample on a ray, classified.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fragment {
     /// Into [`Plan::instances`](crate::plan::Plan::instances).
     pub instance: u32,
-    /// Into the item's triangles.
+    /// Into the item's triangles; of a cap see [`cap_number`].
     pub triangle: u32,
     pub depth: f32,
-    /// Barycentric weights of the triangle's corners.
+    /// Barycentric weights of the triangle's corners; of a cap its normal, unit length, in the world.
     pub weights: Vec3,
     /// The lenses around it (S) and those of them, or the rule, that act.
     pub region: Region,

@@ -44,6 +44,7 @@ fn example(param: &Param) -> String {
         ParamKind::File => "\"map.png\"".to_owned(),
         ParamKind::Choice(words) => format!("\"{}\"", words[0]),
         ParamKind::Patterns => "[\"Bolt*\"]".to_owned(),
+        ParamKind::Cap => "\"hatch\"".to_owned(),
         ParamKind::FreeTable => "{ anything = 1 }".to_owned(),
     })
 }

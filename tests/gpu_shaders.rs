@@ -20,6 +20,7 @@ const LITTLE: Needs = Needs {
     compounds: false,
     forms: [false; 4],
     movers: false,
+    caps: false,
     soft: false,
     glass: false,
     translucent: false,
@@ -44,6 +45,7 @@ const MOST: Needs = Needs {
     compounds: true,
     forms: [true; 4],
     movers: true,
+    caps: true,
     soft: true,
     glass: true,
     translucent: true,
@@ -234,6 +236,9 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             center,
             first_step,
             step_count,
+            body,
+            caps,
+            node,
         ]
     );
     // Five masks of two words each follow, then a channel of two words, then padding to 16 bytes.

@@ -1,2 +1,5 @@
 // Takes surfaces away: those of `nodes` and of `materials` that match, or everything. What is erased hides nothing and
-// catches no pick; a solid that is cut shows its inside.
+// catches no pick. A solid that is cut shows its inside or, with `cap`, is closed where the lens ends: in a colour, in
+// its own material, or hatched in the cap's plane. Caps are surfaces like others: lit, picked, changed by other lenses.
+// Only closed meshes have an inside; `check` names the others. A cap has no edges and no vertices, so wires and points
+// leave nothing of it but what they fill.

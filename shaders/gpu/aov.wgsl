@@ -1,6 +1,6 @@
 // What lies at the centre of each pixel: the visible fragment of SEMANTICS 6.4.
 
-// For each pixel: layers, found, instance, number of its triangle among all, depth, normal, then the words of the set and of the stack. Twin of `aov.rs`.
+// For each pixel: layers, found, instance, number of its triangle among all or of its cap, depth, normal, then the words of the set and of the stack. Twin of `aov.rs`.
 @group(2) @binding(4) var<storage, read_write> maps: array<u32>;
 
 const MAP_WORDS: u32 = 8u + 2u * WORDS;
@@ -25,8 +25,9 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
             break;
         }
         last = pick;
-        let fragment = classified(pick, tile, pixel, ray);
-        let shaded = shade(fragment, meeting(fragment.item, fragment.triangle, ray), ray, passed);
+        let met = met_at(pick, tile, pixel, ray);
+        let fragment = met.fragment;
+        let shaded = shade(fragment, met.at, ray, passed);
         passed = also_passed(passed, fragment, shaded);
         if shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
             continue;
@@ -45,7 +46,10 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     maps[at] = layer_count(tile, pixel);
     maps[at + 1u] = found;
     maps[at + 2u] = visible.item;
-    maps[at + 3u] = triangle_number(visible.item, visible.triangle);
+    maps[at + 3u] = visible.triangle;
+    if !is_cap(visible.triangle) {
+        maps[at + 3u] = triangle_number(visible.item, visible.triangle);
+    }
     maps[at + 4u] = bitcast<u32>(visible.depth);
     maps[at + 5u] = bitcast<u32>(normal.x);
     maps[at + 6u] = bitcast<u32>(normal.y);

@@ -3,7 +3,8 @@
 // that of a set of one lens's parts, and `LIGHTS`, the number of lights; and flags, see `Needs`: whether there are lenses
 // or rules (`LENSES`), rays are cut into layers (`LAYERS`), some lens takes something away or shows something
 // (`TAKEN_AWAY`), some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`,
-// `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`), is soft (`SOFT`) or has a surface (`GLASS`), something
+// `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`) or closes what it cuts
+// (`CAPS`), is soft (`SOFT`) or has a surface (`GLASS`), something
 // may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
 // (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`). `CHANNELS`: how many numbers at vertices filters
@@ -14,6 +15,8 @@ const NONE: u32 = 0xffffffffu;
 // Stands for infinity: infinite values are not reliable in WGSL.
 const FAR_AWAY: f32 = 1e37;
 const TILE: u32 = 16u;
+// Workgroups in a row of a dispatch over tiles; twin of `tiles::DISPATCH_WIDTH`.
+const DISPATCH_WIDTH: u32 = 1024u;
 // Boundaries closer than this share of the depth are one.
 const MERGE: f32 = 1e-5;
 
@@ -120,6 +123,11 @@ struct Item {
     // How its rays are moved, in `steps`.
     first_step: u32,
     step_count: u32,
+    // In `lens_words`, or NONE: the body that it is of, and what closes it where it is cut (see `closing.wgsl`).
+    body: u32,
+    caps: u32,
+    // The number of its node in its file.
+    node: u32,
     masks: array<u32, 5u * WORDS>,
     // Of each channel, where its numbers start in `attributes`, or NONE, and a factor.
     channels: array<u32, 2u * CHANNELS>,

@@ -1,6 +1,6 @@
-// The fragment that is drawn at a window's one pixel, classified and shaded. Twin of `explain.rs`.
+// The fragment that is drawn at a window's one pixel, or a cap before it, classified and shaded. Twin of `explain.rs`.
 
-// Found, instance, number of its triangle among all, item, depth, displayed, opacity, coverage, weights, normal, then the
+// Found, instance, number of its triangle among all, number of its cap or NONE, depth, displayed, opacity, coverage, weights, normal, then the
 // words of the set and of the stack.
 @group(2) @binding(4) var<storage, read_write> report: array<u32>;
 
@@ -8,24 +8,34 @@
 fn explain() {
     let pixel = vec2u(0u);
     let ray = pixel_ray(pixel);
-    let pick = opaque_at(pixel, ray);
+    var pick = opaque_at(pixel, ray);
+    if CAPS {
+        let cap = next_listed(pixel, Pick(frame.after_depth, frame.after_key, frame.after_item, 0u, true));
+        if is_before(cap, pick) {
+            pick = cap;
+        }
+    }
     report[0] = u32(pick.found);
     if !pick.found {
         return;
     }
-    let verdict = walk(pick.item, ray, pick.depth, set_at(tile_at(pixel), pixel, pick.depth));
-    let met = meeting(pick.item, pick.triangle, ray);
+    let tile = tile_at(pixel);
+    let met = met_at(pick, tile, pixel, ray);
+    var displayed = true;
+    if !is_cap(pick.triangle) {
+        displayed = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth)).displayed;
+    }
     var passed = Set();
     for (var w = 0u; w < WORDS; w += 1u) {
         passed.words[w] = frame.passed[w / 4u][w % 4u];
     }
-    let shaded = shade(Fragment(pick.item, pick.triangle, pick.depth, verdict.around, verdict.stack), met, ray, passed);
-    let weights = met.hit.weights;
+    let shaded = shade(met.fragment, met.at, ray, passed);
+    let weights = met.at.hit.weights;
     report[1] = pick.item;
     report[2] = pick.key;
-    report[3] = pick.item;
+    report[3] = select(NONE, pick.triangle, is_cap(pick.triangle));
     report[4] = bitcast<u32>(pick.depth);
-    report[5] = u32(verdict.displayed);
+    report[5] = u32(displayed);
     report[6] = bitcast<u32>(shaded.opacity);
     report[7] = bitcast<u32>(shaded.coverage);
     for (var i = 0u; i < 3u; i += 1u) {
@@ -33,7 +43,7 @@ fn explain() {
         report[11u + i] = bitcast<u32>(shaded.normal[i]);
     }
     for (var w = 0u; w < WORDS; w += 1u) {
-        report[14u + w] = verdict.around.words[w];
-        report[14u + WORDS + w] = verdict.stack.words[w];
+        report[14u + w] = met.fragment.around.words[w];
+        report[14u + WORDS + w] = met.fragment.stack.words[w];
     }
 }

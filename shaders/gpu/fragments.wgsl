@@ -31,6 +31,14 @@ fn opaque_at(pixel: vec2u, ray: PixelRay) -> Pick {
     return Pick(meeting(item, seen.y, ray).hit.depth, triangle_number(item, seen.y), item, seen.y, true);
 }
 
+// The number by which fragments at one depth are ordered; a cap comes before all triangles of its item.
+fn listed_key(item: u32, triangle: u32) -> u32 {
+    if is_cap(triangle) {
+        return items[item].first_triangle;
+    }
+    return triangle_number(item, triangle);
+}
+
 // The nearest listed fragment behind `after`.
 fn next_listed(pixel: vec2u, after: Pick) -> Pick {
     var best = nothing();
@@ -38,7 +46,7 @@ fn next_listed(pixel: vec2u, after: Pick) -> Pick {
     while slot != 0u {
         let f = fragments[slot - 1u];
         slot = f.w;
-        let candidate = Pick(bitcast<f32>(f.x), triangle_number(f.y, f.z), f.y, f.z, true);
+        let candidate = Pick(bitcast<f32>(f.x), listed_key(f.y, f.z), f.y, f.z, true);
         if is_before(after, candidate) && is_before(candidate, best) {
             best = candidate;
         }
@@ -48,7 +56,7 @@ fn next_listed(pixel: vec2u, after: Pick) -> Pick {
 
 // The nearest fragment behind `after`; the opaque one is the last.
 fn next_fragment(pixel: vec2u, opaque: Pick, after: Pick) -> Pick {
-    if !TRANSLUCENT {
+    if !TRANSLUCENT && !CAPS {
         if is_before(after, opaque) {
             return opaque;
         }
@@ -74,6 +82,22 @@ fn also_passed(passed: Set, fragment: Fragment, shaded: ShadedFragment) -> Set {
         all.words[w] |= fragment.stack.words[w];
     }
     return all;
+}
+
+// A fragment, and where the pixel's ray meets it.
+struct Met {
+    fragment: Fragment,
+    at: Meeting,
+}
+
+fn met_at(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Met {
+    if is_cap(pick.triangle) {
+        let closed = closing(pick.item, ray, tile, pixel, pick.depth);
+        let fragment = Fragment(pick.item, pick.triangle, pick.depth, closed.around, closed.stack);
+        return Met(fragment, cap_meeting(pick.item, closed, ray, pixel, pick.depth));
+    }
+    let at = meeting(pick.item, pick.triangle, ray);
+    return Met(classified(pick, tile, pixel, ray), at);
 }
 
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {

@@ -5,8 +5,6 @@
 @group(2) @binding(1) var<storage, read_write> needed: array<atomic<u32>>;
 
 const LAYER_WORDS: u32 = 1u + WORDS;
-// Workgroups in a row of the dispatch; twin of `tiles::DISPATCH_WIDTH`.
-const DISPATCH_WIDTH: u32 = 1024u;
 
 // Where the boundaries of a pixel are gathered: behind slot `first` stand `count` of them, sorted.
 struct Gathering {

@@ -16,7 +16,7 @@ fn tile_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) inde
 fn composited(pixel: vec2u) -> vec4f {
     let ray = pixel_ray(pixel);
     let tile = tile_at(pixel);
-    if !TRANSLUCENT && !GLASS {
+    if !TRANSLUCENT && !GLASS && !CAPS {
         return opaque_color(tile, pixel, ray);
     }
     let at = lens_ray(sample_point(pixel));
@@ -44,10 +44,9 @@ fn composited(pixel: vec2u) -> vec4f {
         if !pick.found {
             break;
         }
-        let met = meeting(pick.item, pick.triangle, ray);
-        let fragment = classified(pick, tile, pixel, ray);
-        let shaded = shade(fragment, met, ray, passed);
-        passed = also_passed(passed, fragment, shaded);
+        let met = met_at(pick, tile, pixel, ray);
+        let shaded = shade(met.fragment, met.at, ray, passed);
+        passed = also_passed(passed, met.fragment, shaded);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);
         if opacity >= OPAQUE_FROM {

@@ -139,12 +139,17 @@ struct Looked {
     found: bool,
 }
 
-fn look_up(op: Op, rank: u32, item: u32, at: Meeting, s: Surface, ray: PixelRay) -> Looked {
+fn look_up(op: Op, rank: u32, f: Fragment, at: Meeting, s: Surface, ray: PixelRay) -> Looked {
+    let item = f.item;
     var reading = Reading(vec4f(1.0), 0.0, 0.0);
     let t = at.triangle;
     let quantity = op_quantity(op);
     var read = Read(op.texture, vec2f(0.0), 0.0);
     var reads = TEXTURES && HAS_TEXTURE && op.kind == OP_TEXTURE;
+    // A cap has neither texture coordinates nor numbers at its corners.
+    if is_cap(f.triangle) && op.flags == UV_MESH {
+        reads = false;
+    }
     if TEXTURES && HAS_TEXTURE && reads {
         read = filter_read(op, rank, item, t, at.hit.weights, s, ray);
     }
@@ -152,7 +157,7 @@ fn look_up(op: Op, rank: u32, item: u32, at: Meeting, s: Surface, ray: PixelRay)
         if quantity == QUANTITY_SLOPE {
             reading.value = s.normal.y;
         } else {
-            if quantity == QUANTITY_VERTEX && items[item].channels[2u * op_channel(op)] == NONE {
+            if quantity == QUANTITY_VERTEX && (is_cap(f.triangle) || items[item].channels[2u * op_channel(op)] == NONE) {
                 return Looked(reading, false);
             }
             let value = value_on_triangle(ray, t.a, t.b, t.c, corner_values(op, rank, item, t));
@@ -245,10 +250,15 @@ fn lit(s: Surface) -> vec3f {
 
 // Runs the stack on a fragment where a pixel's ray meets it: surface filters, lighting once, colour filters, coverage.
 // `passed`: the lenses and rules that act on nearer ones.
-fn shade(f: Fragment, at: Meeting, ray: PixelRay, passed: Set) -> ShadedFragment {
-    let t = at.triangle;
-    let weights = at.hit.weights;
-    var surface = surface_of_material(f, t, weights, ray);
+fn shade(fragment: Fragment, at: Meeting, ray: PixelRay, passed: Set) -> ShadedFragment {
+    var f = fragment;
+    var surface: Surface;
+    if is_cap(f.triangle) {
+        surface = surface_of_cap(f, at, ray);
+        f = without_maker(f);
+    } else {
+        surface = surface_of_material(f, at.triangle, at.hit.weights, ray);
+    }
     let normal = surface.normal;
     if !LENSES {
         return ShadedFragment(emitted(surface, lit(surface)), surface_opacity(surface), 1.0, surface.normal);
@@ -273,7 +283,7 @@ fn surface_stage(material: Surface, f: Fragment, at: Meeting, ray: PixelRay) -> 
         loop {
             if is_filter(place) {
                 let op = ops[place.op];
-                let looked = look_up(op, place.rank, f.item, at, s, ray);
+                let looked = look_up(op, place.rank, f, at, s, ray);
                 if looked.found {
                     let amount = soft_amount(place.rank, f.item, s.position);
                     var after = s;
@@ -327,6 +337,10 @@ fn coverage_stage(full: Shaded, f: Fragment, at: Meeting, ray: PixelRay, positio
     }
     if HAS_POINTS {
         spot.corner = corner_distance(ray, t.a, t.b, t.c);
+    }
+    // A cap has no edges and no corners.
+    if is_cap(f.triangle) {
+        spot = Spot(FAR_AWAY, FAR_AWAY, 0u);
     }
     var shaded = full;
     var place = stack_start(f.stack);

@@ -1,13 +1,5 @@
 // Draws the scene: the nearest opaque fragment of each pixel, and lists of all that may be translucent.
 
-@group(2) @binding(0) var<storage, read> layers: array<u32>;
-// For each pixel of the window its newest fragment plus one.
-@group(2) @binding(1) var<storage, read_write> heads: array<atomic<u32>>;
-// Depth, item, triangle, and the next fragment plus one.
-@group(2) @binding(2) var<storage, read_write> fragments: array<vec4u>;
-// Two counters a sample; the first: how many fragments there must be room for.
-@group(2) @binding(3) var<storage, read_write> needed: array<atomic<u32>>;
-
 struct Varying {
     @invariant @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) item: u32,
@@ -112,16 +104,8 @@ fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, insid
         discard;
     }
     if TRANSLUCENT && may_be_translucent(item, verdict.stack) {
-        append(pixel, meeting(item, triangle, ray).hit.depth, item, triangle);
+        append(head_of(pixel), meeting(item, triangle, ray).hit.depth, item, triangle);
         discard;
     }
     return vec2u(item + 1u, triangle);
-}
-
-fn append(pixel: vec2u, depth: f32, item: u32, triangle: u32) {
-    let slot = atomicAdd(&needed[2u * frame.sample_index], 1u);
-    if slot < frame.fragment_capacity {
-        let next = atomicExchange(&heads[pixel.y * frame.window_size.x + pixel.x], slot + 1u);
-        fragments[slot] = vec4u(bitcast<u32>(depth), item, triangle, next);
-    }
 }

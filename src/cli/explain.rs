@@ -110,10 +110,16 @@ fn pick_text([x, y]: [u32; 2], pick: Option<&NamedPick>) -> String {
         .map_or_else(|| surface.model.to_string(), |name| format!("{}, alternate {name}", surface.model));
     let stack: Vec<String> = surface.stack.iter().map(ToString::to_string).collect();
     let or_none = |list: String| if list.is_empty() { "none".to_string() } else { list };
+    let what = match (&surface.cap, surface.triangle) {
+        (Some(maker), _) => ("cap", format!("of {maker}")),
+        (None, triangle) => {
+            ("triangle", format!("{} of primitive {}", triangle.unwrap_or_default(), surface.primitive))
+        }
+    };
     let mut rows = vec![
         ("node", format!("{} {}, in {of}", surface.node.index, surface.path.join(" / "))),
         ("material", format!("{} {}", surface.material.index, surface.material.name)),
-        ("triangle", format!("{} of primitive {}", surface.triangle, surface.primitive)),
+        what,
         ("position", point_text(*position)),
         ("depth", format!("{depth:.5}")),
         ("normal", point_text(normal.as_dvec3())),

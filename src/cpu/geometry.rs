@@ -77,10 +77,32 @@ impl Geometry {
             .collect()
     }
 
+    /// All of the nodes that may be cut.
+    pub fn of_bodies(scene: &Scene, plan: &Plan) -> Self {
+        let members = plan.bodies.par_iter().flat_map_iter(|body| &body.members);
+        let everywhere = scene::Aabb::EVERYWHERE;
+        Self::new(
+            members
+                .flat_map(|member| {
+                    let instance = &plan.instances[member.instance];
+                    triangles(scene, plan, member.instance, instance, everywhere)
+                })
+                .collect(),
+        )
+    }
+
     fn build(scene: &Scene, plan: &Plan, wanted: impl Fn(&Instance) -> bool + Sync) -> Self {
         let instances = plan.instances.par_iter().enumerate().filter(|(_, instance)| wanted(instance));
-        let triangles: Vec<Triangle> =
-            instances.flat_map(|(index, instance)| triangles(scene, plan, index, instance)).collect();
+        // Of a moved instance only what reaches into the lenses that move it there.
+        let bounds = |instance: &Instance| {
+            if instance.is_moved() { instance.bounds } else { scene::Aabb::EVERYWHERE }
+        };
+        Self::new(
+            instances.flat_map(|(index, instance)| triangles(scene, plan, index, instance, bounds(instance))).collect(),
+        )
+    }
+
+    fn new(triangles: Vec<Triangle>) -> Self {
         if triangles.is_empty() {
             return Self { bvh: Bvh2::default(), triangles };
         }
@@ -90,12 +112,13 @@ impl Geometry {
     }
 }
 
-/// The triangles of an instance; of a moved one only those that reach into the lenses that move it there.
+/// The triangles of an instance that reach into some bounds.
 fn triangles<'a>(
     scene: &'a Scene,
     plan: &'a Plan,
     index: usize,
     instance: &'a Instance,
+    bounds: scene::Aabb,
 ) -> impl ParallelIterator<Item = Triangle> + 'a {
     let item = &plan.items[instance.item];
     let model = &scene.models[item.model];
@@ -106,7 +129,7 @@ fn triangles<'a>(
     let numbered = primitive.triangles.par_iter().enumerate();
     numbered.filter_map(move |(number, corners)| {
         let shown = corners.map(|i| shown[i as usize]);
-        let is_near = !instance.is_moved() || scene::Aabb::from_points(shown).overlaps(&instance.bounds);
+        let is_near = scene::Aabb::from_points(shown).overlaps(&bounds);
         is_near.then(|| Triangle {
             corners: shown.map(|p| ((p - plan.view.eye) * scale).as_vec3()),
             instance: index as u32,

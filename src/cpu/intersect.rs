@@ -20,6 +20,8 @@ pub struct TriangleHit {
     pub t: f32,
     /// Barycentric weights of the corners.
     pub weights: Vec3,
+    /// Its corners run to the left as the ray sees them.
+    pub turns_left: bool,
 }
 
 impl ShearedRay {
@@ -60,7 +62,7 @@ impl ShearedRay {
             return None;
         }
         let weights = Vec3::new(u, v, w) / det;
-        Some(TriangleHit { t: weights.dot(Vec3::new(az, bz, cz)), weights })
+        Some(TriangleHit { t: weights.dot(Vec3::new(az, bz, cz)), weights, turns_left: det > 0.0 })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Everything on the view rays of a block: layers, hits in order, the visible fragment, the colour.
 
+mod caps;
 mod moved;
 mod removed;
 
@@ -13,11 +14,12 @@ use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
 use crate::lens::{PixelRect, RayLayers};
-use crate::pixel::{Fragment, PixelReport, Survivor};
+use crate::pixel::{Fragment, PixelReport, Survivor, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
 use crate::view::Ray;
 
+use caps::{Crossing, CutBodies};
 use moved::MovedLayers;
 
 /// Traces rays through one plan.
@@ -25,6 +27,8 @@ pub struct Tracer<'a> {
     scene: &'a Scene,
     plan: &'a Plan,
     geometry: Vec<Geometry>,
+    /// Where some eraser closes what it cuts.
+    cut: Option<CutBodies>,
     shader: Shader<'a>,
     camera: Camera,
     reach: Reach,
@@ -47,6 +51,7 @@ pub struct Scratch {
     /// Fragments that may be translucent, in front of the opaque one of their ray, and the rays' numbers: by ray, nearest
     /// first.
     listed: Vec<(u32, Fragment)>,
+    crossings: Vec<Crossing>,
     glass: GlassHits,
 }
 
@@ -90,6 +95,7 @@ impl<'a> Tracer<'a> {
             scene,
             plan,
             geometry: Geometry::build_all(scene, plan),
+            cut: CutBodies::new(scene, plan),
             shader: Shader::new(scene, plan),
             camera: Camera::new(&plan.view),
             reach: Reach::new(&plan.view),
@@ -102,17 +108,13 @@ impl<'a> Tracer<'a> {
 
     /// Meets the rays of a block with everything. `ranks`: the lenses that may touch it.
     pub fn trace(&self, block: &Block, ranks: &[usize], scratch: &mut Scratch) {
-        let Scratch { bundle, rays, listed, .. } = scratch;
+        let Scratch { bundle, rays, listed, crossings, .. } = scratch;
         listed.clear();
         rays.resize_with(rays.len().max(block.len()), OneRay::default);
         for (number, one) in rays[..block.len()].iter_mut().enumerate() {
             self.start(block, number, ranks, one);
         }
-        let traced = |one: &OneRay| {
-            let (origin, direction) = self.traced(&one.ray);
-            ShearedRay::new(origin, direction)
-        };
-        bundle.start(rays[..block.len()].iter().map(traced), self.parameter(self.plan.view.far));
+        bundle.start(self.sheared(&rays[..block.len()]), self.parameter(self.plan.view.far));
         let lenses = self.anywhere | ranks.iter().copied().collect();
         for (geometry, seen_by) in self.geometry.iter().zip(&self.seen_by) {
             let Some(range) = seen_range(block, seen_by, rays).filter(|_| !geometry.triangles.is_empty()) else {
@@ -146,7 +148,17 @@ impl<'a> Tracer<'a> {
                 })
             });
         }
+        if let Some(cut) = &self.cut {
+            self.close(cut, block, &mut rays[..block.len()], bundle, crossings, listed);
+        }
         self.finish(&mut rays[..block.len()], lenses, listed);
+    }
+
+    fn sheared<'r>(&self, rays: &'r [OneRay]) -> impl Iterator<Item = ShearedRay> + use<'_, 'r, 'a> {
+        rays.iter().map(|one| {
+            let (origin, direction) = self.traced(&one.ray);
+            ShearedRay::new(origin, direction)
+        })
     }
 
     /// Cuts a ray into layers.
@@ -282,9 +294,10 @@ impl<'a> Tracer<'a> {
         ((b - a).cross(c - a).dot(self.traced(ray).1) > 0.0) != mirrored
     }
 
-    /// Nearest first; at equal depths by content, node, primitive and triangle.
+    /// Nearest first; at equal depths by content, node, primitive and triangle, where a cap comes first.
     fn key(&self, fragment: &Fragment) -> (f32, u32) {
-        (fragment.depth, self.item(fragment.instance).first_triangle + fragment.triangle)
+        let number = if cap_maker(fragment.triangle).is_some() { 0 } else { fragment.triangle };
+        (fragment.depth, self.item(fragment.instance).first_triangle + number)
     }
 
     /// A ray around the eye, for shading; `at`: the point of the picture, in pixels.

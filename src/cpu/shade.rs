@@ -1,12 +1,14 @@
 //! From a hit to a colour: attributes, textures, the stack's filters, light.
 
+mod cap;
+
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, g2, g3, g4, light, v2, v3, v4};
 use super::custom::Site;
 use super::texture;
 use crate::appearance as wgsl;
-use crate::pixel::Fragment;
+use crate::pixel::{Fragment, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Op, Plan};
 use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
@@ -60,6 +62,22 @@ struct Corners<'a> {
     primitive: &'a Primitive,
     indices: [usize; 3],
     around: [Vec3; 3],
+    /// A piece of a cap, at whose corners the primitive has no vertices.
+    is_of_cap: bool,
+}
+
+/// Pixels to the edges and corners of what has none.
+const NOWHERE_NEAR: f32 = 1e30;
+
+impl Hit<'_, '_> {
+    /// Pixels to the nearest edge and to the nearest corner.
+    fn distances(&self) -> (f32, f32) {
+        if self.corners.is_of_cap {
+            return (NOWHERE_NEAR, NOWHERE_NEAR);
+        }
+        let [a, b, c] = self.corners.around.map(v3);
+        (wgsl::wire_distance(*self.ray, a, b, c), wgsl::corner_distance(*self.ray, a, b, c))
+    }
 }
 
 impl Corners<'_> {
@@ -115,25 +133,33 @@ impl<'a> Shader<'a> {
 
     /// Runs the stack on a fragment that a pixel's ray has met. `passed`: the lenses and rules that act on nearer ones.
     pub fn shade(&self, fragment: &Fragment, ray: &wgsl::PixelRay, passed: LensSet) -> Shaded {
+        if let Some(maker) = cap_maker(fragment.triangle) {
+            return self.shade_cap(fragment, maker, ray, passed);
+        }
         let instance = &self.plan.instances[fragment.instance as usize];
         let item = &self.plan.items[instance.item];
         let corners = self.corners(item, fragment);
         let geometric =
             (corners.around[1] - corners.around[0]).cross(corners.around[2] - corners.around[0]).normalize_or_zero();
         let view = -g3(ray.direction).normalize();
-        let mut surface = self.surface(item, fragment, &corners, geometric, view, ray);
-        let normal = g3(surface.normal);
-        let position = g3(surface.position);
+        let surface = self.surface(item, fragment, &corners, geometric, view, ray);
+        let (normal, position) = (g3(surface.normal), g3(surface.position));
         let hit = Hit { instance, corners: &corners, weights: fragment.weights, position, normal, ray };
+        self.staged(surface, &hit, fragment.region.stack, passed)
+    }
+
+    /// Runs a stack on a surface.
+    fn staged(&self, mut surface: wgsl::Surface, hit: &Hit, stack: LensSet, passed: LensSet) -> Shaded {
+        let Hit { instance, position, normal, .. } = *hit;
         let ops = || {
-            fragment.region.stack.iter().flat_map(|rank| {
+            stack.iter().flat_map(|rank| {
                 let amount = self.amount(rank, instance, position);
                 self.ops[self.plan.ops_of(rank)].iter().map(move |op| (rank, op, amount))
             })
         };
         for (rank, op, amount) in ops() {
             let source = || instance.source_from_shown(rank, op.inner != 0);
-            let Some(reading) = self.reading(op, &hit, source) else { continue };
+            let Some(reading) = self.reading(op, hit, source) else { continue };
             let filtered = match self.custom(op, position, source) {
                 Some(site) => site.filtered(op, surface),
                 None => wgsl::filter_surface(*op, surface, reading),
@@ -153,9 +179,7 @@ impl<'a> Shader<'a> {
         let mut shaded = wgsl::Shaded { color: v3(color), opacity, coverage: 1.0 };
         let mut near = None;
         for (rank, op, amount) in ops().filter(|(_, op, _)| wgsl::FILTERS[op.kind as usize].stages[2]) {
-            let [a, b, c] = corners.around.map(v3);
-            let lies = || (wgsl::wire_distance(*ray, a, b, c), wgsl::corner_distance(*ray, a, b, c));
-            let (edge, corner) = *near.get_or_insert_with(lies);
+            let (edge, corner) = *near.get_or_insert_with(|| hit.distances());
             let spot = wgsl::Spot { edge, corner, hidden: u32::from(passed.contains(rank)) };
             shaded = wgsl::faded_shaded(shaded, wgsl::filter_coverage(*op, shaded, spot), amount);
         }
@@ -181,7 +205,7 @@ impl<'a> Shader<'a> {
         let indices = primitive.triangles[fragment.triangle as usize].map(|i| i as usize);
         let to_eye = &self.transforms[fragment.instance as usize].point;
         let around = indices.map(|i| to_eye.transform_point3(primitive.positions[i]));
-        Corners { primitive, indices, around }
+        Corners { primitive, indices, around, is_of_cap: false }
     }
 
     /// The surface as its material has it.
@@ -320,6 +344,9 @@ impl<'a> Shader<'a> {
     /// A quantity at the corners of a triangle.
     fn corner_values(&self, quantity: u32, channel: u32, hit: &Hit, source: impl Fn() -> DAffine3) -> Option<Vec3> {
         if quantity == wgsl::QUANTITY_VERTEX.0 {
+            if hit.corners.is_of_cap {
+                return None;
+            }
             let (values, factor) = self.values[hit.instance.item][channel as usize]?;
             return Some(Vec3::from_array(hit.corners.indices.map(|i| values[i] * factor)));
         }
@@ -337,6 +364,9 @@ impl<'a> Shader<'a> {
         let Hit { corners, weights, position, normal, ray, .. } = *hit;
         let scale = Vec2::new(op.a.x, op.a.y);
         if op.flags == wgsl::UV_MESH.0 {
+            if corners.is_of_cap {
+                return Vec4::ONE;
+            }
             return self.sample(op.texture, corners.uv(0).map(|uv| uv * scale), corners, weights, ray);
         }
         let space = &self.plan.texture_space;

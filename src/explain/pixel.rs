@@ -9,7 +9,7 @@ use super::json::{HiddenJson, NeighboursJson, hidden_json, order_json};
 use super::{actor, lenses, rule_line};
 use crate::output::{Actor, Entry};
 use crate::pick::{NamedSurface, places};
-use crate::pixel::{Fragment, PixelReport, Removed, Survivor};
+use crate::pixel::{Fragment, PixelReport, Removed, Survivor, cap_maker};
 use crate::plan::{Plan, Reasons, Region, filter_name};
 use crate::scene::Scene;
 use crate::spec::{Filter, Spec};
@@ -87,7 +87,11 @@ impl PixelAccount<'_> {
         let Fragment { instance, triangle, depth, region, .. } = *fragment;
         let surface = NamedSurface::new(self.scene, self.plan, instance, triangle, region);
         let (node, material) = (surface.node.name, surface.material.name);
-        writeln!(f, "  {depth:12.5}  {node} ({material}), triangle {triangle}{more}")?;
+        let what = match cap_maker(triangle) {
+            Some(maker) => format!("cap of {}", actor(self.spec, self.plan, maker)),
+            None => format!("triangle {triangle}"),
+        };
+        writeln!(f, "  {depth:12.5}  {node} ({material}), {what}{more}")?;
         writeln!(f, "{INDENT}in {}; stack {}{removed}", lenses(self.plan, &region), self.stack_text(&region))?;
         if !surface.moved_by.is_empty() {
             let place = places(self.plan, self.pixel, instance, depth).1;

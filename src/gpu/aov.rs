@@ -2,6 +2,7 @@
 
 use super::Window;
 use crate::frame::{Aovs, RegionTable};
+use crate::pixel::cap_maker;
 use crate::plan::{LensSet, Plan, Region};
 
 /// Words a pixel ahead of those of its set and its stack; `MAP_WORDS` of the shader.
@@ -37,7 +38,8 @@ pub fn store(
         if pixel[1] != 0 {
             let item = &plan.items[plan.instances[pixel[2] as usize].item];
             maps.instances[at] = pixel[2];
-            maps.triangles[at] = pixel[3] - item.first_triangle;
+            let is_cap = cap_maker(pixel[3]).is_some();
+            maps.triangles[at] = if is_cap { pixel[3] } else { pixel[3] - item.first_triangle };
             maps.nodes[at] = item.node as u32 + 1;
             maps.depth[at] = f32::from_bits(pixel[4]);
             maps.normals[at] = [pixel[5], pixel[6], pixel[7]].map(f32::from_bits);

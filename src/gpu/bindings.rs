@@ -39,7 +39,7 @@ impl Layouts {
             ),
             plan: layout(device, "plan", everywhere, &plan),
             layers: layout(device, "layers", compute | fragment, &[ReadWrite, ReadWrite]),
-            visibility: layout(device, "visibility", fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
+            visibility: layout(device, "visibility", compute | fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
             resolve: layout(device, "resolve", compute | fragment, &[Read, Read, Read, IdTexture, ReadWrite]),
             screen: layout(
                 device,

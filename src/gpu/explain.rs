@@ -5,9 +5,9 @@ use glam::Vec3;
 use super::frame::Place;
 use super::readback::Readback;
 use super::renderer::Renderer;
-use super::{Error, Headless, RenderOptions, Window};
+use super::{Error, Headless, RenderOptions, Room, Window};
 use crate::pick::Pick;
-use crate::pixel::{Fragment, PixelReport, Removed, Survivor};
+use crate::pixel::{Fragment, PixelReport, Removed, Survivor, cap_maker};
 use crate::plan::{LensSet, Plan, Region};
 use crate::scene::Scene;
 
@@ -100,20 +100,28 @@ impl Headless {
         window: Window,
         after: Place,
     ) -> Result<Option<Found>, Error> {
-        let job = renderer.prepare_next_behind(&self.device, scene, plan, window, after)?;
-        let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(None) };
-        let pass =
-            renderer.explain_pass(&self.device, plan, &job, 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words)))?;
-        let mut encoder = self.encoder();
-        job.encode_layers(&mut encoder, sample);
-        job.encode_visibility(&mut encoder, sample);
-        job.encode_explain(&mut encoder, sample, &pass);
-        let copy = Readback::of_buffer(&self.device, &mut encoder, &pass.buffer);
-        self.queue.submit([encoder.finish()]);
-        let bytes = copy.bytes(&self.device)?;
-        self.check()?;
-        let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-        Ok((words[0] != 0).then(|| found(plan, &words[..FIXED_WORDS + 2 * job.words as usize])))
+        loop {
+            let job = renderer.prepare_next_behind(&self.device, scene, plan, window, after)?;
+            let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(None) };
+            let pass =
+                renderer.explain_pass(&self.device, plan, &job, 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words)))?;
+            let mut encoder = self.encoder();
+            job.encode_layers(&mut encoder, sample);
+            job.encode_visibility(&mut encoder, sample);
+            job.encode_explain(&mut encoder, sample, &pass);
+            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
+            let copy = Readback::of_buffer(&self.device, &mut encoder, &pass.buffer);
+            self.queue.submit([encoder.finish()]);
+            let needed = Room::needed(&counts.bytes(&self.device)?);
+            let bytes = copy.bytes(&self.device)?;
+            self.check()?;
+            if job.room.holds(needed) {
+                let words: Vec<u32> =
+                    bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+                return Ok((words[0] != 0).then(|| found(plan, &words[..FIXED_WORDS + 2 * job.words as usize])));
+            }
+            renderer.reserve(needed);
+        }
     }
 }
 
@@ -122,15 +130,17 @@ fn found(plan: &Plan, words: &[u32]) -> Found {
     let [set, stack] = [0, 1].map(|i| LensSet::from_words(&sets[i * sets.len() / 2..][..sets.len() / 2]));
     let float = |at: usize| f32::from_bits(fixed[at]);
     let instance = fixed[1];
+    let first_triangle = plan.items[plan.instances[instance as usize].item].first_triangle;
+    let triangle = if cap_maker(fixed[3]).is_some() { fixed[3] } else { fixed[2] - first_triangle };
     let fragment = Fragment {
         instance,
-        triangle: fixed[2] - plan.items[plan.instances[instance as usize].item].first_triangle,
+        triangle,
         depth: float(4),
         weights: Vec3::new(float(8), float(9), float(10)),
         region: Region { set, stack },
     };
     Found {
-        place: Place { depth: fragment.depth, key: fixed[2], item: fixed[3], passed: LensSet::EMPTY },
+        place: Place { depth: fragment.depth, key: fixed[2], item: instance, passed: LensSet::EMPTY },
         survivor: Survivor { fragment, opacity: float(6), coverage: float(7) },
         normal: Vec3::new(float(11), float(12), float(13)),
         displayed: fixed[5] != 0,

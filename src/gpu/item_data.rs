@@ -2,6 +2,7 @@
 
 use glam::DAffine3;
 
+use super::cut_data::CutWords;
 use super::draws::shown_from_local;
 use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
 use super::upload::SceneData;
@@ -22,14 +23,15 @@ pub fn item_stride(words: u32, channels: u32) -> u64 {
 }
 
 impl ItemData {
-    /// `words`: of a set of lenses.
-    pub fn new(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: u32) -> Self {
+    /// `words`: of a set of lenses; `cuts`: of each instance.
+    pub fn new(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: u32, cuts: &[CutWords]) -> Self {
         let mut data = Self::default();
-        for instance in &plan.instances {
+        for (instance, cut) in plan.instances.iter().zip(cuts) {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
-            let record = ItemRecord { first_step, ..record(scene, plan, instance, uploaded) };
+            let CutWords { body, caps } = *cut;
+            let record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
             for mask in [item.scope, item.object, item.shown_by, item.removed_by, item.movers] {
@@ -78,6 +80,9 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         center: (item.center - plan.view.eye).as_vec3().to_array(),
         first_step: 0,
         step_count: instance.steps.len() as u32,
+        body: NONE,
+        caps: NONE,
+        node: item.node as u32,
     }
 }
 

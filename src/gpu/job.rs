@@ -26,6 +26,8 @@ pub struct Job {
     pub tiles: Tiles,
     pub record_stride: u32,
     pub draws: Vec<(Draw, wgpu::RenderPipeline)>,
+    /// Where something may be cut.
+    pub caps: Option<CapSteps>,
     pub positions: wgpu::Buffer,
     pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
@@ -35,6 +37,15 @@ pub struct Job {
     pub screen: Option<ScreenJob>,
     pub targets: Arc<Targets>,
     pub groups: Groups,
+}
+
+/// What finds caps.
+#[derive(Debug)]
+pub struct CapSteps {
+    /// Of all that may be cut.
+    pub draws: Vec<Draw>,
+    pub crossings: wgpu::RenderPipeline,
+    pub find: wgpu::ComputePipeline,
 }
 
 /// What is not drawn but computed.
@@ -89,6 +100,11 @@ impl Job {
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, &self.groups.layers, &[]);
+        self.dispatch_tiles(&mut pass);
+    }
+
+    /// One workgroup for each tile that lenses touch.
+    fn dispatch_tiles(&self, pass: &mut wgpu::ComputePass) {
         let width = self.tiles.active.min(DISPATCH_WIDTH);
         pass.dispatch_workgroups(width, self.tiles.active.div_ceil(DISPATCH_WIDTH), 1);
     }
@@ -111,6 +127,35 @@ impl Job {
                 pass.draw_indexed(draw.indices.clone(), draw.base_vertex, draw.record..draw.record + 1);
             }
         }
+        drop(pass);
+        if let Some(caps) = self.caps.as_ref().filter(|_| self.tiles.active > 0) {
+            self.encode_caps(encoder, sample, caps);
+        }
+    }
+
+    /// Lists what rays meet of all that may be cut, then the caps that close it.
+    fn encode_caps(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, caps: &CapSteps) {
+        let mut pass = begin_listing(encoder, "crossings", &self.targets.depth);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, &self.groups.visibility, &[]);
+        pass.set_vertex_buffer(0, self.positions.slice(..));
+        pass.set_vertex_buffer(1, self.items.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_pipeline(&caps.crossings);
+        for draw in &caps.draws {
+            let PixelRect { min, max } = draw.rect;
+            pass.set_scissor_rect(min[0], min[1], max[0] - min[0], max[1] - min[1]);
+            pass.draw_indexed(draw.indices.clone(), draw.base_vertex, draw.record..draw.record + 1);
+        }
+        drop(pass);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("caps"), timestamp_writes: None });
+        pass.set_pipeline(&caps.find);
+        pass.set_bind_group(0, &self.groups.scene, &[]);
+        pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
+        pass.set_bind_group(2, &self.groups.visibility, &[]);
+        self.dispatch_tiles(&mut pass);
     }
 
     /// Composites each pixel's fragments into a target as large as the window, where the picture stands after the last
@@ -168,6 +213,26 @@ impl Job {
         let [width, height] = self.window.size;
         pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
     }
+}
+
+/// A pass that draws into lists alone; it has the size of a depth target, and neither reads nor changes one.
+fn begin_listing<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    depth: &wgpu::TextureView,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
 }
 
 /// A pass that starts with cleared targets.

@@ -23,7 +23,7 @@ impl LensData {
         let mut data = Self::default();
         let moves = plan.items.iter().any(|item| !item.movers.is_empty());
         for (rank, lens) in (0u32..).zip(&plan.lenses) {
-            let whole = moves || lens.soft > 0.0 || lens.glass.is_some();
+            let whole = moves || !plan.bodies.is_empty() || lens.soft > 0.0 || lens.glass.is_some();
             let record = data.lens(&plan.view, rank, lens, cells, whole, crossings);
             data.push(record, &lens.hides, words);
         }

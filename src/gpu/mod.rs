@@ -10,6 +10,7 @@ mod caps;
 mod cells;
 mod clusters;
 mod cost;
+mod cut_data;
 mod draws;
 mod error;
 mod explain;

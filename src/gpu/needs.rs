@@ -32,6 +32,8 @@ pub struct Needs {
     pub forms: [bool; 4],
     /// Some lens moves content.
     pub movers: bool,
+    /// Some lens closes what it cuts.
+    pub caps: bool,
     /// Some lens is soft.
     pub soft: bool,
     /// Some lens has a surface of its own.
@@ -69,7 +71,9 @@ impl Needs {
         let takes_away = |item: &Item| !(item.removed_by | item.shown_by | item.movers).is_empty();
         let taken_away = plan.items.iter().any(takes_away);
         let all_parts: usize = plan.lenses.iter().map(|lens| lens.volume.parts.len()).sum();
-        let asks_often = translucent || (glass && compounds) || (taken_away && (compounds || all_parts > FEW_PARTS));
+        let caps = !plan.bodies.is_empty();
+        let asks_often =
+            translucent || caps || (glass && compounds) || (taken_away && (compounds || all_parts > FEW_PARTS));
         Self {
             set_words: words(plan.lenses.len() + plan.rules.len()),
             part_words: words(parts.chain(names).max().unwrap_or(1)),
@@ -79,6 +83,7 @@ impl Needs {
             compounds,
             forms: has_forms(plan),
             movers: plan.items.iter().any(|item| !item.movers.is_empty()),
+            caps,
             soft: plan.lenses.iter().any(|lens| lens.soft > 0.0),
             glass,
             translucent,
@@ -108,6 +113,7 @@ impl Needs {
             compounds: false,
             forms: [false; 4],
             movers: false,
+            caps: false,
             soft: false,
             glass: false,
             stages: [false; 3],
@@ -184,6 +190,7 @@ impl Needs {
             ("CAPSULES", self.forms[2]),
             ("HALF_SPACES", self.forms[3]),
             ("MOVERS", self.movers),
+            ("CAPS", self.caps),
             ("SOFT", self.soft),
             ("GLASS", self.glass),
             ("TRANSLUCENT", self.translucent),

@@ -73,6 +73,8 @@ pub struct Pipelines {
     explain: OnceLock<wgpu::ComputePipeline>,
     screen: OnceLock<ScreenPipelines>,
     visibility: OnceLock<wgpu::ShaderModule>,
+    crossings: OnceLock<wgpu::RenderPipeline>,
+    find_caps: OnceLock<wgpu::ComputePipeline>,
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
 }
 
@@ -97,6 +99,8 @@ impl Pipelines {
             explain: OnceLock::new(),
             screen: OnceLock::new(),
             visibility: OnceLock::new(),
+            crossings: OnceLock::new(),
+            find_caps: OnceLock::new(),
             draws: Mutex::default(),
         }
     }
@@ -155,8 +159,9 @@ impl Pipelines {
                 &store.device,
                 module,
                 &layout,
-                program.entry(),
+                ["vertex", program.entry()],
                 culling,
+                Keeps::Nearest,
                 item_stride(self.needs.set_words, self.needs.channels),
             )
         };
@@ -169,6 +174,22 @@ impl Pipelines {
             label: Some(module.name()),
             source: wgpu::ShaderSource::Wgsl(source(module, &self.needs, &self.custom).into()),
         })
+    }
+
+    /// Lists what rays meet of what may be cut.
+    pub fn crossings(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        let build = || {
+            let module = self.compile(&store.device, Module::Caps);
+            let layout = pipeline_layout(store, &store.layouts.visibility);
+            let stride = item_stride(self.needs.set_words, self.needs.channels);
+            let entries = ["cut_vertex", "crossing"];
+            draw_pipeline(&store.device, &module, &layout, entries, Culling::None, Keeps::Nothing, stride)
+        };
+        self.crossings.get_or_init(build).clone()
+    }
+
+    pub fn find_caps(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
+        self.compute(&self.find_caps, store, Module::Caps, &store.layouts.visibility, "find_caps")
     }
 
     fn compute(
@@ -211,14 +232,27 @@ fn compute_pipeline(
     })
 }
 
+/// What a pass over triangles keeps of them.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Keeps {
+    Nearest,
+    /// Each lists itself.
+    Nothing,
+}
+
+/// `entries`: of the vertex and the fragment function.
 fn draw_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
-    entry: &str,
+    entries: [&str; 2],
     culling: Culling,
+    keeps: Keeps,
     item_stride: u64,
 ) -> wgpu::RenderPipeline {
+    let [vertex, entry] = entries;
+    let keeps_nearest = keeps == Keeps::Nearest;
+    let targets = [Some(ID_FORMAT.into())];
     let corner = wgpu::vertex_attr_array![0 => Float32x3];
     let field = |shader_location, format, offset: usize| wgpu::VertexAttribute {
         shader_location,
@@ -238,7 +272,7 @@ fn draw_pipeline(
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
-            entry_point: Some("vertex"),
+            entry_point: Some(vertex),
             compilation_options: Default::default(),
             buffers: &[
                 Some(wgpu::VertexBufferLayout {
@@ -261,8 +295,12 @@ fn draw_pipeline(
         // Reverse-Z; at equal depths what was drawn first stays in front.
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
+            depth_write_enabled: Some(keeps_nearest),
+            depth_compare: Some(if keeps_nearest {
+                wgpu::CompareFunction::Greater
+            } else {
+                wgpu::CompareFunction::Always
+            }),
             stencil: Default::default(),
             bias: Default::default(),
         }),
@@ -271,7 +309,7 @@ fn draw_pipeline(
             module,
             entry_point: Some(entry),
             compilation_options: Default::default(),
-            targets: &[Some(ID_FORMAT.into())],
+            targets: if keeps_nearest { &targets } else { &[] },
         }),
         multiview_mask: None,
         cache: None,

@@ -102,6 +102,11 @@ pub struct ItemRecord {
     pub center: [f32; 3],
     pub first_step: u32,
     pub step_count: u32,
+    /// Among the words of lenses, or `u32::MAX`: the body that it is of, and what closes it where it is cut.
+    pub body: u32,
+    pub caps: u32,
+    /// The number of its node in its file.
+    pub node: u32,
 }
 
 /// A lens that moves content, on the way down from a shown point.

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::bindings;
+use super::cut_data;
 use super::draws::{self, Draw, Skip};
 use super::frame::{self, FrameShape, Place, Sample};
 use super::item_data::ItemData;
-use super::job::{ComputeSteps, ExplainPass, Groups, Job, ResolvePipelines};
+use super::job::{CapSteps, ComputeSteps, ExplainPass, Groups, Job, ResolvePipelines};
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::plan_group::{PlanContents, PlanGroup};
@@ -18,6 +19,7 @@ use super::tiles::Tiles;
 use super::upload::{SceneData, largest_buffer};
 use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov};
 use crate::custom::{self, Custom};
+use crate::lens::PixelRect;
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -164,8 +166,9 @@ impl Renderer {
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
         let fragments = self.reserved.fragments.max(first_guess(plan, &window));
-        let targets =
-            self.targets(device, &window, plan.samples, if cuts_layers { tiles.layer_words } else { 0 }, fragments)?;
+        let layer_words = if cuts_layers { tiles.layer_words } else { 0 };
+        let heads = window.pixels() * if needs.caps { 2 } else { 1 };
+        let targets = self.targets(device, &window, plan.samples, layer_words, heads, fragments)?;
         let room = Room { fragments: targets.fragments.size() / FRAGMENT_BYTES, ..self.reserved };
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
@@ -185,11 +188,13 @@ impl Renderer {
             .aovs
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
+        let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
+        let cuts = cut_data::push_cuts(plan, &mut lenses.parts.words);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
-            items: &ItemData::new(scene, plan, &self.scene, words),
-            lenses: &LensData::new(plan, words, &tiles.cells, room.crossings),
+            items: &ItemData::new(scene, plan, &self.scene, words, &cuts),
+            lenses: &lenses,
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
@@ -199,11 +204,16 @@ impl Renderer {
         // Compiled side by side where they are new.
         let (store, custom, none) = (&self.store, &custom_text(plan), &Arc::from(""));
         let unshaded = store.get(needs.without_shading(), none);
-        let ((draws, layers), (aov, resolve)) = rayon::join(
+        let ((draws, caps, layers), (aov, resolve)) = rayon::join(
             || {
                 let program = program_of(options.engine, after.is_some());
                 let draws = self.draws(scene, plan, &window, skip, program, &unshaded);
-                (draws, cuts_layers.then(|| unshaded.layers(store)))
+                let caps = needs.caps.then(|| CapSteps {
+                    draws: cut_data::draws(plan, &window, &self.scene),
+                    crossings: unshaded.crossings(store),
+                    find: unshaded.find_caps(store),
+                });
+                (draws, caps, cuts_layers.then(|| unshaded.layers(store)))
             },
             || {
                 let resolve = |needs| store.get(needs, custom).resolve(store);
@@ -228,6 +238,7 @@ impl Renderer {
             tiles,
             record_stride,
             draws,
+            caps,
             positions: self.scene.positions.clone(),
             indices: self.scene.indices.clone(),
             items,
@@ -277,15 +288,17 @@ impl Renderer {
         window: &Window,
         samples: u32,
         layer_words: u64,
+        heads: u64,
         fragments: u64,
     ) -> Result<Arc<Targets>, Error> {
         let summed = if samples > 1 { window.pixels() } else { 0 };
-        if let Some(targets) = self.targets.as_ref().filter(|t| t.fits(window, summed, layer_words, fragments)) {
+        if let Some(targets) = self.targets.as_ref().filter(|t| t.fits(window, summed, layer_words, heads, fragments)) {
             return Ok(targets.clone());
         }
         // The old ones first, or both would be held at once.
         self.targets = None;
-        let targets = Arc::new(Targets::new(device, self.largest_buffer, window, summed, layer_words, fragments)?);
+        let targets =
+            Arc::new(Targets::new(device, self.largest_buffer, window, summed, layer_words, heads, fragments)?);
         self.targets = Some(targets.clone());
         Ok(targets)
     }
@@ -362,7 +375,10 @@ fn first_guess(plan: &Plan, window: &Window) -> u64 {
         return 2 * pixels;
     }
     let lenses = plan.lenses.iter().filter(|lens| lens.translucent);
-    (2 * lenses.map(|lens| window.local(&lens.rect).area()).sum::<u64>()).clamp(64, 4 * pixels.max(16))
+    // Each ray that goes into something goes out again.
+    let cut = plan.bodies.iter().map(|body| cut_data::cut_rect(plan, body)).reduce(PixelRect::union);
+    let cut = cut.map_or(0, |rect| 4 * window.local(&rect).area());
+    (cut + 2 * lenses.map(|lens| window.local(&lens.rect).area()).sum::<u64>()).clamp(64, 4 * pixels.max(16))
 }
 
 /// Bytes from one record to the next.

@@ -7,6 +7,8 @@ use super::Needs;
 pub enum Module {
     Layers,
     Visibility,
+    /// Where something may be cut: what rays meet of it, and their caps.
+    Caps,
     Resolve,
     Aov,
     Explain,
@@ -14,14 +16,22 @@ pub enum Module {
 }
 
 impl Module {
-    pub const ALL: [Module; 6] =
-        [Module::Layers, Module::Visibility, Module::Resolve, Module::Aov, Module::Explain, Module::Screen];
+    pub const ALL: [Module; 7] = [
+        Module::Layers,
+        Module::Visibility,
+        Module::Caps,
+        Module::Resolve,
+        Module::Aov,
+        Module::Explain,
+        Module::Screen,
+    ];
 
     /// How labels and messages call it.
     pub fn name(self) -> &'static str {
         match self {
             Module::Layers => "layers",
             Module::Visibility => "visibility",
+            Module::Caps => "caps",
             Module::Resolve => "resolve",
             Module::Aov => "aov",
             Module::Explain => "explain",
@@ -32,7 +42,8 @@ impl Module {
     fn parts(self) -> &'static [&'static [&'static str]] {
         match self {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
-            Module::Visibility => &[&[VISIBILITY], VOLUMES, CLASSIFYING],
+            Module::Visibility => &[&[LISTS, VISIBILITY], VOLUMES, CLASSIFYING],
+            Module::Caps => &[&[LISTS, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, FINISH, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
@@ -46,7 +57,7 @@ const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
 /// Who acts on a fragment.
 const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
 /// What a fragment looks like.
-const SHADING: &[&str] = &[TEXTURE, SOFT, STACK, CUSTOM, SHADE, FRAGMENTS];
+const SHADING: &[&str] = &[CLOSING, BOUNDARY, CAPS, TEXTURE, SOFT, STACK, CUSTOM, SHADE, FRAGMENTS];
 
 const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
@@ -62,6 +73,11 @@ const SOFT: &str = include_str!("../../shaders/gpu/soft.wgsl");
 const STACK: &str = include_str!("../../shaders/gpu/stack.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
+const LISTS: &str = include_str!("../../shaders/gpu/lists.wgsl");
+const FIND_CAPS: &str = include_str!("../../shaders/gpu/find_caps.wgsl");
+const CLOSING: &str = include_str!("../../shaders/gpu/closing.wgsl");
+const BOUNDARY: &str = include_str!("../../shaders/gpu/boundary.wgsl");
+const CAPS: &str = include_str!("../../shaders/gpu/caps.wgsl");
 const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");
 const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");

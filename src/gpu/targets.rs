@@ -16,7 +16,7 @@ pub struct Targets {
     pub size: [u32; 2],
     pub ids: wgpu::TextureView,
     pub depth: wgpu::TextureView,
-    /// The newest fragment of each pixel.
+    /// The newest fragment of each pixel and, where something may be cut, the newest crossing with that.
     pub heads: wgpu::Buffer,
     /// Summed colours, where there are several samples.
     pub accumulated: wgpu::Buffer,
@@ -25,13 +25,14 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// `summed`: for how many pixels colours are summed.
+    /// `summed`: for how many pixels colours are summed; `heads`: of lists.
     pub fn new(
         device: &wgpu::Device,
         allowed: u64,
         window: &Window,
         summed: u64,
         layer_words: u64,
+        heads: u64,
         fragments: u64,
     ) -> Result<Self, Error> {
         let limit = device.limits().max_texture_dimension_2d;
@@ -58,7 +59,7 @@ impl Targets {
             size: window.size,
             ids: texture("visibility", ID_FORMAT, attachment | wgpu::TextureUsages::TEXTURE_BINDING),
             depth: texture("depth", DEPTH_FORMAT, attachment),
-            heads: work_buffer(device, allowed, "heads of fragment lists", 4 * window.pixels())?,
+            heads: work_buffer(device, allowed, "heads of fragment lists", 4 * heads)?,
             accumulated: work_buffer(device, allowed, "summed colours", SUMMED_BYTES * summed)?,
             layers: work_buffer(device, allowed, "layers", 4 * layer_words)?,
             fragments: work_buffer(device, allowed, "fragments", FRAGMENT_BYTES * fragments)?,
@@ -66,9 +67,10 @@ impl Targets {
     }
 
     /// Whether a frame of this size fits.
-    pub fn fits(&self, window: &Window, summed: u64, layer_words: u64, fragments: u64) -> bool {
+    pub fn fits(&self, window: &Window, summed: u64, layer_words: u64, heads: u64, fragments: u64) -> bool {
         self.size == window.size
             && self.accumulated.size() >= SUMMED_BYTES * summed
+            && self.heads.size() >= 4 * heads
             && self.layers.size() >= 4 * layer_words
             && self.fragments.size() >= FRAGMENT_BYTES * fragments
     }

@@ -7,7 +7,7 @@ use crate::view::Ray;
 const MERGE: f64 = 1e-5;
 
 /// Whether a boundary is another one than the boundary at `first` before it.
-pub(super) fn starts_boundary(first: f64, depth: f64) -> bool {
+pub fn starts_boundary(first: f64, depth: f64) -> bool {
     depth - first > MERGE * first.abs()
 }
 
@@ -69,6 +69,12 @@ impl RayLayers {
     pub fn set_at(&self, depth: f64) -> LensSet {
         let reached = |start: &&LayerStart| !starts_boundary(depth, start.depth);
         self.starts.iter().rev().find(reached).map_or(LensSet::EMPTY, |start| start.set)
+    }
+
+    /// The lenses around the ray just before a boundary, one at this depth or as close to it as two that merge.
+    pub fn set_before(&self, boundary: f64) -> LensSet {
+        let before = |start: &&LayerStart| starts_boundary(start.depth, boundary);
+        self.starts.iter().rev().find(before).or(self.starts.first()).map_or(LensSet::EMPTY, |start| start.set)
     }
 
     /// One more than the distinct boundaries between near and far.

@@ -25,4 +25,4 @@ pub use solid::Solid;
 pub use tree::{MAX_PARTS, Tree};
 pub use volume::{Boundary, Interval, Volume};
 
-use layers::starts_boundary;
+pub(crate) use layers::starts_boundary;

@@ -84,6 +84,25 @@ impl RegionMap {
     }
 }
 
+impl Actor {
+    /// Who stands at a rank of stacks.
+    pub fn of(plan: &Plan, rank: usize) -> Self {
+        match plan.rule_of(rank) {
+            Some(rule) => Actor::Rule(rule),
+            None => Actor::Lens(plan.lenses[rank].name.clone()),
+        }
+    }
+}
+
+impl std::fmt::Display for Actor {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Actor::Lens(name) => f.write_str(name),
+            Actor::Rule(number) => write!(f, "rule {number}"),
+        }
+    }
+}
+
 impl Entry {
     pub fn json(&self) -> serde_json::Value {
         serde_json::json!(self)
@@ -92,10 +111,7 @@ impl Entry {
 
 impl std::fmt::Display for Entry {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match &self.by {
-            Actor::Lens(name) => write!(f, "{name}.{}", self.filter),
-            Actor::Rule(number) => write!(f, "rule {number}.{}", self.filter),
-        }
+        write!(f, "{}.{}", self.by, self.filter)
     }
 }
 
@@ -112,10 +128,7 @@ pub fn numbered<'a>(plan: &Plan, regions: impl Iterator<Item = &'a Region>) -> V
 /// Every filter that acts in a region, content filters too, lowest first.
 pub fn stack(plan: &Plan, region: Region) -> Vec<Entry> {
     let of_rank = |rank: usize| {
-        let by = match plan.rule_of(rank) {
-            Some(rule) => Actor::Rule(rule),
-            None => Actor::Lens(plan.lenses[rank].name.clone()),
-        };
+        let by = Actor::of(plan, rank);
         plan.filters_of(rank).iter().map(move |f| Entry { by: by.clone(), filter: filter_name(f) })
     };
     region.stack.iter().flat_map(of_rank).collect()

@@ -96,7 +96,7 @@ pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<
         items.iter().enumerate().map(|(index, item)| Instance::in_place(index, item.bounds)).collect();
     let movers: LensSet = (0..lenses.len()).filter(|rank| lenses[*rank].moves).collect();
     for (index, item) in items.iter().enumerate() {
-        let mut ways = vec![instances[index].clone()];
+        let mut ways = vec![Instance::in_place(index, moved_bounds(item, scene))];
         for rank in item.moved_by(lenses).iter() {
             let reach = match lenses[rank].by {
                 By::Pixel => lenses[rank].volume.bounds(),
@@ -112,6 +112,11 @@ pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<
         instances.extend(ways.into_iter().skip(1));
     }
     Ok(instances)
+}
+
+/// The bounds of an item as movers take it: what may be cut is shown whole or not at all.
+fn moved_bounds(item: &Item, scene: &Scene) -> Aabb {
+    if item.caps.is_empty() { item.bounds } else { scene.models[item.model].node_bounds(item.node) }
 }
 
 fn too_many(lenses: &[Lens], movers: LensSet, ways: bool) -> InputError {

@@ -4,8 +4,9 @@ use super::{Lens, LensSet, Rule, instances};
 use glam::DVec3;
 
 use crate::InputError;
+use crate::pixel::FIRST_CAP;
 use crate::scene::{Aabb, Model, Scene};
-use crate::spec::{At, By, Filter, LensSpec, Matches, Pattern, ShowWhat, Spec};
+use crate::spec::{At, By, Cap, Filter, LensSpec, Matches, Pattern, ShowWhat, Spec};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +47,8 @@ pub struct Item {
     pub removed_by: LensSet,
     /// Lenses that move it where they act.
     pub movers: LensSet,
+    /// What the lenses and rules that erase it close it with, by rising rank; none where its node is not closed.
+    pub caps: Vec<(usize, Cap)>,
 }
 
 impl Item {
@@ -112,6 +115,7 @@ pub(super) fn collect(
                     shown_by: LensSet::EMPTY,
                     removed_by: LensSet::EMPTY,
                     movers: LensSet::EMPTY,
+                    caps: Vec::new(),
                 };
                 let subject = item.subject(scene);
                 for (rank, lens) in lenses.iter().enumerate() {
@@ -132,10 +136,10 @@ pub(super) fn collect(
             }
         }
     }
-    if first_triangle >= u64::from(u32::MAX) {
+    if first_triangle > u64::from(FIRST_CAP) {
         let message = format!(
             "the scene and its alternates draw {first_triangle} triangles, and at most {} can be told apart",
-            u32::MAX - 1
+            FIRST_CAP
         );
         return Err(InputError::new(message));
     }
@@ -152,24 +156,30 @@ fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, c
         item.movers.insert(rank);
     }
     let last_show = filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
-    let erases = |filters: &[Filter]| {
-        filters.iter().any(|f| match f {
-            Filter::Erase { nodes, materials } => {
-                (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials)
+    // The cap of the first filter that erases it.
+    let erased = |filters: &[Filter]| {
+        filters.iter().find_map(|f| match f {
+            Filter::Erase { nodes, materials, cap } => {
+                let matches = (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials);
+                matches.then_some(*cap)
             }
-            _ => false,
+            _ => None,
         })
     };
     let Some(show) = last_show else {
-        if erases(filters) {
+        if let Some(cap) = erased(filters) {
             item.removed_by.insert(rank);
+            item.caps.extend(cap.map(|cap| (rank, cap)));
         }
         return;
     };
     let Filter::Show(what) = &filters[show] else { return };
     let brings_in = contents.iter().position(|c| *c == content(what, scene)) == Some(item.content);
-    if brings_in && !erases(&filters[show + 1..]) {
-        item.shown_by.insert(rank);
+    if brings_in {
+        match erased(&filters[show + 1..]) {
+            None => item.shown_by.insert(rank),
+            Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
+        }
     }
     // Whatever else is in the lens's scope makes room for what it shows.
     item.removed_by.insert(rank);

@@ -4,6 +4,7 @@
 
 mod account;
 mod camera;
+mod caps;
 mod decide;
 mod instances;
 mod items;
@@ -29,6 +30,7 @@ use crate::view::View;
 
 pub use crate::lens::{LensSet, MAX_LENSES, MAX_RULES};
 pub use account::{Account, Undecided};
+pub use caps::{Body, Closing, Member};
 pub use decide::{Reason, commute};
 pub use instances::{Instance, Step};
 pub use items::{Content, Item};
@@ -75,6 +77,8 @@ pub struct Plan {
     pub items: Vec<Item>,
     /// Every way in which an item may be seen: all items in place, in their order, then those that lenses move.
     pub instances: Vec<Instance>,
+    /// The nodes that erasers with `cap` may cut. Where several have a cap at one boundary, the first of them here has it.
+    pub bodies: Vec<Body>,
     /// The middle and the longest side of the scene's bounds, for projected textures.
     pub texture_space: TextureSpace,
     /// The lenses in the order of the file, disabled ones too, with the declared edges.
@@ -105,7 +109,9 @@ impl Plan {
         let lenses = lenses::rank_lenses(spec, &graph, &order, &volumes, &mut ops)?;
         let rules = rules::collect(spec, &lenses, &mut ops)?;
         let op::Ops { list: ops, channels, customs, custom_words, .. } = ops;
-        let (contents, items) = items::collect(spec, scene, &order, &lenses, &rules)?;
+        let (contents, mut items) = items::collect(spec, scene, &order, &lenses, &rules)?;
+        let mut warnings = warnings::collect(spec, scene);
+        warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
             samples: spec.image.samples,
@@ -119,6 +125,7 @@ impl Plan {
             by_pixel: (0..lenses.len()).filter(|rank| lenses[*rank].by == crate::spec::By::Pixel).collect(),
             texture_space: texture_space(scene),
             view,
+            bodies: caps::bodies(scene, &items, &instances),
             lenses,
             rules,
             ops,
@@ -130,7 +137,7 @@ impl Plan {
             instances,
             graph,
             ranks,
-            warnings: warnings::collect(spec, scene),
+            warnings,
         })
     }
 

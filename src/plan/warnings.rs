@@ -27,7 +27,7 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
         }
         for filter in &lens.filters {
             match &filter.value {
-                Filter::Erase { nodes, materials } => {
+                Filter::Erase { nodes, materials, .. } => {
                     check(format!("`erase` of lens `{name}`"), nodes, &node);
                     check(format!("`erase` of lens `{name}`"), materials, &material);
                 }

@@ -4,6 +4,7 @@
 
 mod animation;
 mod bounds;
+mod closed;
 mod lens_meshes;
 mod load;
 mod materials;
@@ -16,6 +17,7 @@ mod vertex_values;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
+pub use closed::{Closure, ClosureCache};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
-use super::{Animation, BoundsCache, Transform};
+use super::{Animation, BoundsCache, ClosureCache, Transform};
 
 /// One glTF file, with one of its scenes chosen. Indices are those of the file.
 #[derive(Debug, Clone, Default)]
@@ -32,6 +32,8 @@ pub struct Model {
     pub warnings: Vec<String>,
     /// To be replaced with an empty one where a mesh is changed in place.
     pub bounds_cache: BoundsCache,
+    /// Likewise.
+    pub closure_cache: ClosureCache,
 }
 
 #[derive(Debug, Clone)]

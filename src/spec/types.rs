@@ -245,10 +245,11 @@ pub enum Filter {
     Points {
         size: f32,
     },
-    /// Removes what matches; both lists empty: everything.
+    /// Removes what matches; both lists empty: everything. `cap` `None`: cut solids stay open.
     Erase {
         nodes: Vec<At<Pattern>>,
         materials: Vec<At<Pattern>>,
+        cap: Option<Cap>,
     },
     Show(ShowWhat),
     /// Enlarges about `center` (in the shape's space; `None`: the lens's centre).
@@ -378,6 +379,16 @@ impl Filter {
     pub fn moves(&self) -> bool {
         matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
     }
+}
+
+/// What the surface looks like that closes a cut solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cap {
+    /// The solid's own material, without textures.
+    Own,
+    Color(Color),
+    /// Slanted lines of the colour over a light ground.
+    Hatch(Color),
 }
 
 /// What `show` puts in place of the scene.

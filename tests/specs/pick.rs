@@ -8,7 +8,7 @@ use crate::entry::Entry;
 use crate::open::Opened;
 
 /// Specs that take away, show, move, rule, and shine through.
-pub const SPECS: [&str; 8] = [
+pub const SPECS: [&str; 12] = [
     "filters/erase",
     "filters/show-alternate",
     "movers/two-magnifiers-hides",
@@ -17,6 +17,10 @@ pub const SPECS: [&str; 8] = [
     "scope/by-object-erase",
     "transparency/panes-two-lenses",
     "filters/wireframe",
+    "caps/own",
+    "caps/translucent",
+    "caps/magnified",
+    "caps/hides",
 ];
 
 /// At every pixel the CPU backend picks what its maps have, and what is picked from the maps is the same.

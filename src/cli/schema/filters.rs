@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::kinds::{described, number, numbers, patterns, reference, table, text, vector};
+use super::kinds::{cap, described, number, numbers, patterns, reference, table, text, vector};
 use crate::spec::NumberRange;
 use crate::spec::catalogue::{FILTERS, FilterRow, Param, ParamDefault, ParamKind};
 
@@ -66,6 +66,7 @@ fn kind(kind: ParamKind) -> Value {
         ParamKind::Text | ParamKind::File => text(),
         ParamKind::Choice(words) => json!({ "enum": words }),
         ParamKind::Patterns => patterns(),
+        ParamKind::Cap => cap(),
         ParamKind::FreeTable => json!({ "type": "object" }),
     }
 }

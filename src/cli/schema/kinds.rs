@@ -50,6 +50,13 @@ pub fn color() -> Value {
     })
 }
 
+pub fn cap() -> Value {
+    json!({
+        "type": "string",
+        "pattern": "^(own|hatch|(hatch +)?(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?|[a-zA-Z]+))$",
+    })
+}
+
 pub fn rotation() -> Value {
     json!({
         "description": "Three degrees (intrinsic XYZ) or a quaternion [x, y, z, w].",

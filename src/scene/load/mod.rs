@@ -23,7 +23,7 @@ use std::path::Path;
 
 use gltf::json;
 
-use super::{BoundsCache, Model};
+use super::{BoundsCache, ClosureCache, Model};
 use crate::InputError;
 use crate::spec::SceneChoice;
 
@@ -107,6 +107,7 @@ impl Model {
             extensions,
             warnings: Vec::new(),
             bounds_cache: BoundsCache::default(),
+            closure_cache: ClosureCache::default(),
         };
         model.pose(None)?;
         model.images = image::load(&file, &model.used_images(), fetch)?;

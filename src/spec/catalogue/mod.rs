@@ -59,6 +59,8 @@ pub enum ParamKind {
     File,
     Choice(&'static [&'static str]),
     Patterns,
+    /// What closes a cut solid.
+    Cap,
     /// A table whose keys the filter's own file declares.
     FreeTable,
 }
@@ -121,6 +123,7 @@ impl fmt::Display for ParamKind {
             Self::File => write!(f, "file"),
             Self::Choice(words) => write!(f, "{}", words.join(" | ")),
             Self::Patterns => write!(f, "list of patterns"),
+            Self::Cap => write!(f, "colour, \"own\", \"hatch\" or \"hatch COLOUR\""),
             Self::FreeTable => write!(f, "table"),
         }
     }

@@ -3,7 +3,7 @@
 use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
 use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
 use super::ParamKind::{
-    Bool, Choice, Color, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text, Vector,
+    Bool, Cap, Choice, Color, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text, Vector,
 };
 use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::NumberRange;
@@ -19,11 +19,6 @@ const EVERYTHING: ParamDefault = Meaning("everything");
 
 const fn param(name: &'static str, kind: ParamKind, default: ParamDefault, help: &'static str) -> Param {
     Param { name, kind, default, built: true, help }
-}
-
-/// A parameter that waits for its work.
-const fn later(param: Param) -> Param {
-    Param { built: false, ..param }
 }
 
 const fn built(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
@@ -81,7 +76,7 @@ const POINTS: &[Param] = &[param("size", PIXELS, Num(3.0), "of the discs, pixels
 const ERASE: &[Param] = &[
     param("nodes", Patterns, EVERYTHING, "nodes that go"),
     param("materials", Patterns, EVERYTHING, "materials that go"),
-    later(param("cap", Text, Meaning("open"), "closes cut solids: a colour, \"own\" or a hatch")),
+    param("cap", Cap, Meaning("open"), "closes cut solids: in a colour, their own or hatched"),
 ];
 const SHOW: &[Param] = &[
     param("alternate", Text, Meaning("give this or nodes"), "a name under [scene.alternates]"),

@@ -24,8 +24,7 @@ impl Item<'_> {
     pub fn color(&self) -> Result<Color, InputError> {
         let text = self.text().map_err(|error| error.help(WANTED))?;
         parse(text).ok_or_else(|| {
-            let near = (!text.starts_with('#')).then(|| nearest(text)).flatten();
-            let help = near.map_or_else(|| WANTED.to_owned(), |name| format!("did you mean \"{name}\"?"));
+            let help = nearest(text).map_or_else(|| WANTED.to_owned(), |name| format!("did you mean \"{name}\"?"));
             self.error(format!("{} is not a colour: \"{text}\"", self.called())).help(help)
         })
     }
@@ -49,8 +48,10 @@ fn hex(digits: &str) -> Option<Color> {
     }
 }
 
-fn nearest(text: &str) -> Option<&'static str> {
-    suggest::nearest(text, NAMED_COLORS.keys().map(|name| name.as_str()))
+/// The CSS name that a word may have been meant to be.
+pub fn nearest(text: &str) -> Option<&'static str> {
+    let names = NAMED_COLORS.keys().map(|name| name.as_str());
+    (!text.starts_with('#')).then(|| suggest::nearest(text, names)).flatten()
 }
 
 #[cfg(test)]

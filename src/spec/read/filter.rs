@@ -8,11 +8,11 @@ use toml::de::{DeTable, DeValue};
 use super::item::{File, Item, kind_of};
 use super::suggest;
 use super::table::{entries, only_entry};
-use super::{color, later};
+use super::{cap, color, later};
 use crate::InputError;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
+use crate::spec::{At, Cap, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,7 @@ enum Value {
     Text(At<String>),
     File(At<PathBuf>),
     Patterns(Vec<At<Pattern>>),
+    Cap(Cap),
     /// Checked against the filter's own file.
     Free(Vec<Given>),
 }
@@ -188,6 +189,13 @@ impl<'a> Params<'a> {
         }
     }
 
+    fn cap(&self, name: &str) -> Option<Cap> {
+        match self.get(name)? {
+            Value::Cap(cap) => Some(*cap),
+            _ => None,
+        }
+    }
+
     fn text(&self, name: &str) -> Option<At<String>> {
         match self.get(name)? {
             Value::Text(text) => Some(text.clone()),
@@ -248,6 +256,7 @@ fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
         }
         ParamKind::Patterns => Value::Patterns(item.patterns()?),
         ParamKind::Vector => Value::Vector(item.vector()?),
+        ParamKind::Cap => Value::Cap(cap::read(item)?),
         ParamKind::FreeTable => Value::Free(free_table(item)?),
     })
 }
@@ -294,6 +303,7 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
         "erase" => Some(Filter::Erase {
             nodes: params.patterns("nodes").unwrap_or_default(),
             materials: params.patterns("materials").unwrap_or_default(),
+            cap: params.cap("cap"),
         }),
         "show" => Some(Filter::Show(show(params)?)),
         "magnify" => params.double("factor").map(|factor| Filter::Magnify { factor, center: params.vector("center") }),

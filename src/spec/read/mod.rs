@@ -1,6 +1,7 @@
 //! Text to [`Spec`](super::Spec): TOML with places, then one small reader for each part of the format.
 
 mod camera;
+mod cap;
 pub(crate) mod color;
 mod condition;
 mod document;

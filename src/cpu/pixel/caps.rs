@@ -1,0 +1,158 @@
+//! Caps on the rays of a block: boundaries inside the nodes that an eraser cuts (SEMANTICS 6.6).
+
+use super::{BlockRays, OneRay, Tracer, seen_range};
+use crate::cpu::block::Block;
+use crate::cpu::geometry::Geometry;
+use crate::lens::{Boundary, RayLayers, starts_boundary};
+use crate::pixel::{Fragment, cap_number};
+use crate::plan::{Body, Closing, Instance, LensSet, Member, Plan};
+use crate::scene::Scene;
+use crate::view::Ray;
+
+/// The nodes that may be cut, whole: what lenses erase and what lies behind the far plane tells as well where their
+/// inside is.
+pub struct CutBodies {
+    geometry: Geometry,
+    /// Of each instance, the body that it belongs to and which of its members it is.
+    places: Vec<Option<(u32, u32)>>,
+    /// The lenses without which nothing is cut; `None` where something may be anyway.
+    cut_by: Option<LensSet>,
+}
+
+/// A ray goes into a member of a body, or out of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Crossing {
+    ray: u32,
+    body: u32,
+    member: u32,
+    depth: f32,
+    /// How often the surface winds around what lies before it, less how often around what lies behind.
+    winding: i32,
+}
+
+impl CutBodies {
+    /// `None` where no eraser closes anything.
+    pub fn new(scene: &Scene, plan: &Plan) -> Option<Self> {
+        if plan.bodies.is_empty() {
+            return None;
+        }
+        let mut places = vec![None; plan.instances.len()];
+        let mut cut_by = LensSet::EMPTY;
+        for (body, Body { members }) in (0u32..).zip(&plan.bodies) {
+            for (number, member) in (0u32..).zip(members) {
+                places[member.instance] = Some((body, number));
+                let Instance { item, steps, .. } = &plan.instances[member.instance];
+                // What is moved is cut where it is seen: in the lens that moves it.
+                let own = steps.first().map_or(plan.items[*item].capped_by(), |step| LensSet::only(step.rank));
+                cut_by = cut_by | own;
+            }
+        }
+        let cut_by = (cut_by.minus(plan.by_pixel).is_empty()).then_some(cut_by);
+        Some(Self { geometry: Geometry::of_bodies(scene, plan), places, cut_by })
+    }
+}
+
+impl Tracer<'_> {
+    /// Lists the caps on the rays of a block.
+    pub(super) fn close(
+        &self,
+        cut: &CutBodies,
+        block: &Block,
+        rays: &mut [OneRay],
+        bundle: &mut BlockRays,
+        crossings: &mut Vec<Crossing>,
+        listed: &mut Vec<(u32, Fragment)>,
+    ) {
+        let Some(range) = seen_range(block, &cut.cut_by, rays) else { return };
+        crossings.clear();
+        bundle.start(self.sheared(rays), f32::MAX);
+        bundle.trace(&cut.geometry, &self.camera, block, &range, |ray, triangle, hit| {
+            if let Some((body, member)) = cut.places[triangle.instance as usize] {
+                let winding = if hit.turns_left { 1 } else { -1 };
+                crossings.push(Crossing { ray: ray as u32, body, member, depth: self.depth(hit.t), winding });
+            }
+            None
+        });
+        crossings.sort_unstable_by_key(|crossing| (crossing.ray, crossing.body));
+        let mut caps: Vec<(f64, Fragment)> = Vec::new();
+        for met in crossings.chunk_by(|a, b| a.ray == b.ray) {
+            let ray = met[0].ray;
+            caps.clear();
+            for own in met.chunk_by(|a, b| a.body == b.body) {
+                let body = &self.plan.bodies[own[0].body as usize];
+                self.close_body(body, own, &mut rays[ray as usize], |boundary, cap| caps.push((boundary, cap)));
+            }
+            // Stable: at one boundary the first body stays first.
+            caps.sort_by(|a, b| a.0.total_cmp(&b.0));
+            caps.dedup_by(|next, first| !starts_boundary(first.0, next.0));
+            listed.extend(caps.iter().map(|(_, cap)| (ray, *cap)));
+        }
+    }
+
+    /// The caps of one body on a ray, in front of where it surely ends.
+    fn close_body(&self, body: &Body, crossings: &[Crossing], one: &mut OneRay, mut found: impl FnMut(f64, Fragment)) {
+        let OneRay { ray, layers, moved, opaque, .. } = one;
+        // Members are moved alike.
+        let steps = &self.plan.instances[body.members[0].instance].steps;
+        let layers = moved.all(self.plan, ray, layers, steps);
+        for boundary in boundaries((0..=steps.len()).map(&layers)) {
+            if opaque.is_some_and(|opaque| f64::from(opaque.depth) < boundary) {
+                continue;
+            }
+            let Some(Member { instance, .. }) = around(body, crossings, boundary) else { continue };
+            let shown = &self.plan.instances[*instance];
+            let set = |steps: usize, behind: bool| {
+                if behind { layers(steps).set_at(boundary) } else { layers(steps).set_before(boundary) }
+            };
+            if let Some(closing) = self.plan.closing(shown, set) {
+                let cap = Fragment {
+                    instance: *instance as u32,
+                    triangle: cap_number(closing.maker),
+                    depth: boundary as f32,
+                    weights: cap_normal(self.plan, shown, ray, boundary, &closing),
+                    region: closing.region,
+                };
+                found(boundary, cap);
+            }
+        }
+    }
+}
+
+/// The depths of all boundaries, each once, nearest first.
+fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>) -> Vec<f64> {
+    let mut depths: Vec<f64> =
+        layers.flat_map(|layers| layers.starts.iter().skip(1)).map(|start| start.depth).collect();
+    depths.sort_unstable_by(f64::total_cmp);
+    depths.dedup_by(|next, first| !starts_boundary(*first, *next));
+    depths
+}
+
+/// The member of a body that a boundary lies in: the first that encloses it by itself, else the first of those that do so
+/// together; `None` where the boundary lies outside.
+///
+/// Told by what lies behind, so that it makes no difference where the ray starts. A surface in the boundary lies behind it.
+fn around<'b>(body: &'b Body, crossings: &[Crossing], boundary: f64) -> Option<&'b Member> {
+    let behind = || crossings.iter().filter(|crossing| !starts_boundary(f64::from(crossing.depth), boundary));
+    if behind().map(|crossing| crossing.winding).sum::<i32>() == 0 {
+        return None;
+    }
+    let encloses = |number: u32| {
+        behind().filter(|crossing| crossing.member == number).map(|crossing| crossing.winding).sum::<i32>() != 0
+    };
+    let alone = (0u32..).zip(&body.members).find(|(number, member)| member.closed && encloses(*number));
+    alone.map(|(_, member)| member).or(body.members.first())
+}
+
+/// The normal of the boundary that is closed, on the viewer's side, as shown.
+fn cap_normal(plan: &Plan, instance: &Instance, ray: &Ray, depth: f64, closing: &Closing) -> glam::Vec3 {
+    let source_from_shown = instance.source_from_shown(closing.boundary, false);
+    let source = ray.moved(&source_from_shown);
+    let volume = &plan.lenses[closing.boundary].volume;
+    let mut boundaries: Vec<Boundary> = Vec::new();
+    volume.boundaries(&source, plan.view.near, plan.view.far, &mut boundaries);
+    let away = |boundary: &&Boundary| (boundary.depth - depth).abs();
+    let nearest = boundaries.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+    let normal = nearest.map_or(-source.direction, |boundary| volume.normal(&source, boundary));
+    let shown = (source_from_shown.matrix3.transpose() * normal).normalize_or(-ray.direction.normalize());
+    (if shown.dot(ray.direction) > 0.0 { -shown } else { shown }).as_vec3()
+}

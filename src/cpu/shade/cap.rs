@@ -1,0 +1,73 @@
+//! The colour of a cap.
+
+use glam::{Vec2, Vec3, Vec4};
+
+use super::{Corners, Hit, Shaded, Shader};
+use crate::appearance as wgsl;
+use crate::cpu::convert::{a4, g3, v2, v3, v4};
+use crate::pixel::Fragment;
+use crate::plan::{Item, LensSet};
+use crate::spec::Cap;
+
+impl Shader<'_> {
+    /// Runs the stack on a cap, without the lens that makes it.
+    pub(super) fn shade_cap(&self, fragment: &Fragment, maker: usize, ray: &wgsl::PixelRay, passed: LensSet) -> Shaded {
+        let instance = &self.plan.instances[fragment.instance as usize];
+        let item = &self.plan.items[instance.item];
+        let normal = fragment.weights;
+        let position = g3(ray.origin) + g3(ray.direction) * fragment.depth;
+        let own = self.own_surface(item, position, normal, ray);
+        let cap = record(item.cap(maker).unwrap_or(Cap::Own), item);
+        // Its lines lie where it is cut.
+        let source = instance.source_from_shown(maker, false);
+        let space = &self.plan.texture_space;
+        let mapped = source.transform_point3(position.as_dvec3() + self.plan.view.eye) - space.origin.as_dvec3();
+        let direction = g3(wgsl::cap_direction(v3(normal), cap.variant));
+        let along = direction.dot(mapped.as_vec3() * space.scale);
+        let reach = source.matrix3.x_axis.length() as f32 * space.scale;
+        let span = wgsl::cap_span(*ray, v3(position), v3(normal), v3(direction)) * reach;
+        let mut stack = fragment.region.stack;
+        stack.remove(maker);
+        let corners = self.piece(item, position, normal);
+        let weights = Vec3::X;
+        let hit = Hit { instance, corners: &corners, weights, position, normal, ray };
+        self.staged(wgsl::cap_surface(cap, own, along, span), &hit, stack, passed)
+    }
+
+    /// A triangle in a cap's plane, its first corner where a ray meets it.
+    fn piece(&self, item: &Item, position: Vec3, normal: Vec3) -> Corners<'_> {
+        let size = wgsl::CAP_PIECE.0 * position.length();
+        let corner = |number| g3(wgsl::cap_corner(number, v3(position), v3(normal), size));
+        let primitive = &self.scene.models[item.model].meshes[item.mesh].primitives[item.primitive];
+        Corners { primitive, indices: [0; 3], around: [0, 1, 2].map(corner), is_of_cap: true }
+    }
+
+    /// The surface that an item's material has where it has no texture.
+    fn own_surface(&self, item: &Item, position: Vec3, normal: Vec3, ray: &wgsl::PixelRay) -> wgsl::Surface {
+        let material = &self.scene.materials[item.material];
+        wgsl::Surface {
+            position: v3(position),
+            normal: v3(normal),
+            view: v3(-g3(ray.direction).normalize()),
+            factor: a4(material.base_color),
+            texel: v4(Vec4::ONE),
+            metallic: material.metallic,
+            roughness: material.roughness,
+            emissive: v3(Vec3::from_array(material.emissive)),
+            occlusion: 1.0,
+            alpha_mode: material.alpha_mode,
+            alpha_cutoff: material.alpha_cutoff,
+            opacity: 1.0,
+            unlit: material.unlit as f32,
+            pixel: ray.pixel,
+            toon: v2(Vec2::ZERO),
+            hatch: v4(Vec4::ZERO),
+            hatch_lines: v2(Vec2::ONE),
+        }
+    }
+}
+
+fn record(cap: Cap, item: &Item) -> wgsl::Cap {
+    let (kind, color) = cap.look();
+    wgsl::Cap { kind, variant: item.node as u32, color: a4(color) }
+}

@@ -1,0 +1,177 @@
+//! Caps: surfaces that close the solids which an eraser cuts (SEMANTICS 6.6).
+//!
+//! A cap lies where a view ray comes to a lens boundary inside a closed node that is displayed on one side of it and
+//! erased, by an eraser with `cap`, on the other. Whether a point is inside the backend finds from all crossings of
+//! the ray with the node; who erases there is said here.
+
+use std::collections::BTreeMap;
+
+use super::{Instance, Item, Lens, LensSet, Plan, Region};
+use crate::appearance as wgsl;
+use crate::scene::{Closure, Scene};
+use crate::spec::{At, By, Cap, Filter, Spec};
+
+/// A node as erasers with `cap` cut it: all of it that is shown in one way.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Body {
+    /// Its primitives.
+    pub members: Vec<Member>,
+}
+
+/// A primitive of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Member {
+    /// Into [`Plan::instances`].
+    pub instance: usize,
+    /// It is closed by itself, so that what it encloses is its own.
+    pub closed: bool,
+}
+
+/// What closes an instance at a boundary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Closing {
+    /// The rank of the lens or rule whose `cap` it is.
+    pub maker: usize,
+    /// The lens whose boundary it is.
+    pub boundary: usize,
+    /// Behind the boundary.
+    pub region: Region,
+}
+
+/// The most nodes that a warning names.
+const MOST_NAMED: usize = 8;
+
+/// Leaves items only the caps that can be, and says which cannot.
+pub(super) fn check(spec: &Spec, scene: &Scene, lenses: &[Lens], items: &mut [Item]) -> Vec<String> {
+    let mut open: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+    for item in items.iter_mut().filter(|item| !item.caps.is_empty()) {
+        item.caps.retain(|(rank, _)| lenses.get(*rank).is_none_or(|lens| lens.by == By::Pixel));
+        let model = &scene.models[item.model];
+        let closure = model.closure(item.mesh);
+        if closure.is_closed() {
+            continue;
+        }
+        for (rank, _) in std::mem::take(&mut item.caps) {
+            let names = open.entry(rank).or_default();
+            let name = open_node(&model.node_label(item.node), &closure);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    let by_object = (0..lenses.len()).filter(|rank| lenses[*rank].by == By::Object);
+    let idle = by_object.filter_map(|rank| {
+        let (place, name) = cap_of(spec, lenses, rank)?;
+        Some(format!("{place}: `cap` of {name} closes nothing: with by = \"object\" it cuts no solid"))
+    });
+    let open = open.into_iter().filter_map(|(rank, names)| {
+        let (place, name) = cap_of(spec, lenses, rank)?;
+        let more = names.len().saturating_sub(MOST_NAMED);
+        let more = if more > 0 { format!(", and {more} more nodes") } else { String::new() };
+        let names = names[..names.len().min(MOST_NAMED)].join(", ");
+        Some(format!("{place}: `cap` of {name} leaves open what is not closed: {names}{more}"))
+    });
+    idle.chain(open).collect()
+}
+
+fn open_node(name: &str, Closure { edges, open_edges, .. }: &Closure) -> String {
+    format!("{name} ({open_edges} of {edges} edges are open)")
+}
+
+/// Where a lens or a rule first has a `cap`, and how messages call it.
+fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)> {
+    let (filters, name) = match lenses.get(rank) {
+        Some(lens) => (&spec.lenses[lens.index].filters, format!("lens `{}`", lens.name)),
+        None => (&spec.overlaps[rank - lenses.len()].filters, format!("overlap rule {}", rank - lenses.len())),
+    };
+    let has_cap = |filter: &&At<Filter>| matches!(filter.value, Filter::Erase { cap: Some(_), .. });
+    let line = spec.source.line(filters.iter().find(has_cap)?.span.start);
+    Some((format!("{}:{line}", spec.source.name), name))
+}
+
+/// The nodes that may be cut, in each of the ways in which all of them is shown; the smallest first: of those that lie in
+/// each other the inner ones.
+pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
+    // By the content, the node and the lenses that move it.
+    let mut ways: BTreeMap<(usize, usize, Vec<usize>), Body> = BTreeMap::new();
+    let is_node_of = |a: &Item, b: &Item| (a.content, a.node) == (b.content, b.node);
+    let is_cut: Vec<bool> = items
+        .chunk_by(is_node_of)
+        .flat_map(|node| std::iter::repeat_n(node.iter().any(|item| !item.caps.is_empty()), node.len()))
+        .collect();
+    for (number, instance) in instances.iter().enumerate().filter(|(_, instance)| is_cut[instance.item]) {
+        let item = &items[instance.item];
+        let way = instance.steps.iter().map(|step| step.rank).collect();
+        let closed = scene.models[item.model].closure(item.mesh).primitives[item.primitive];
+        let body = ways.entry((item.content, item.node, way)).or_insert(Body { members: Vec::new() });
+        body.members.push(Member { instance: number, closed });
+    }
+    // What a lens moves only some primitives of is not closed there.
+    let is_whole = |body: &Body| {
+        let first = &items[instances[body.members[0].instance].item];
+        items.iter().filter(|item| is_node_of(first, item)).count() == body.members.len()
+    };
+    let size = |body: &Body| {
+        let first = &items[instances[body.members[0].instance].item];
+        scene.models[first.model].node_bounds(first.node).size().element_product()
+    };
+    let mut bodies: Vec<Body> = ways.into_values().filter(is_whole).collect();
+    bodies.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    bodies
+}
+
+impl Item {
+    /// What the cap looks like that a lens or rule closes this with.
+    pub fn cap(&self, maker: usize) -> Option<Cap> {
+        self.caps.iter().find(|(rank, _)| *rank == maker).map(|(_, cap)| *cap)
+    }
+
+    /// The lenses and rules that close it where they cut it.
+    pub fn capped_by(&self) -> LensSet {
+        self.caps.iter().map(|(rank, _)| *rank).collect()
+    }
+}
+
+impl Plan {
+    /// What closes an instance at a boundary, if anything does.
+    ///
+    /// `around(n, behind)`: as for [`Plan::walk`], just before the boundary and just behind it.
+    pub fn closing(&self, instance: &Instance, mut around: impl FnMut(usize, bool) -> LensSet) -> Option<Closing> {
+        let before = self.walk(instance, |steps| around(steps, false));
+        let behind = self.walk(instance, |steps| around(steps, true));
+        if before.displayed == behind.displayed {
+            return None;
+        }
+        let erased = if behind.displayed { &before } else { &behind };
+        let item = &self.items[instance.item];
+        let maker = (item.capped_by() & erased.removed_by).top().filter(|_| erased.here)?;
+        let mut changed = LensSet::EMPTY;
+        for steps in 0..=instance.steps.len() {
+            let (before, behind) = (around(steps, false), around(steps, true));
+            changed = changed | (instance.asked_after(steps) & (before.minus(behind) | behind.minus(before)));
+        }
+        let changed = changed & self.by_pixel & (item.scope | item.shown_by);
+        let boundary = if changed.contains(maker) { maker } else { changed.top()? };
+        Some(Closing { maker, boundary, region: Region { set: behind.set, stack: behind.stack } })
+    }
+}
+
+impl Instance {
+    /// The lenses that are asked at the point after so many steps: from the mover of the next step up to that of the last.
+    fn asked_after(&self, steps: usize) -> LensSet {
+        let below = |step: usize| self.steps.get(step).map(|step| LensSet::below(step.rank));
+        let highest = steps.checked_sub(1).and_then(below).unwrap_or(LensSet::below(super::MAX_LENSES));
+        highest.minus(below(steps).unwrap_or(LensSet::EMPTY))
+    }
+}
+
+impl Cap {
+    /// A `CAP_...` constant of the shaders, and a colour in linear light.
+    pub(crate) fn look(self) -> (u32, [f32; 4]) {
+        match self {
+            Cap::Own => (wgsl::CAP_OWN.0, [0.0; 4]),
+            Cap::Color(color) => (wgsl::CAP_COLOR.0, color.to_linear()),
+            Cap::Hatch(color) => (wgsl::CAP_HATCH.0, color.to_linear()),
+        }
+    }
+}

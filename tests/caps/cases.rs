@@ -1,0 +1,171 @@
+//! Cuts whose areas are known.
+
+use std::f64::consts::PI;
+
+use glam::Vec3;
+use lenspeel::pixel::cap_maker;
+
+use crate::solids::{Part, ball, cuboid, planned, turned, with};
+use crate::{Draw, cap_pixels, has_area, maps};
+
+pub type Check = fn(Draw) -> Result<(), String>;
+
+pub const ALL: [(&str, Check); 10] = [
+    ("a-ball-cut-by-a-plane", plane),
+    ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
+    ("a-ball-cut-by-a-sphere", sphere),
+    ("a-part-in-a-housing", housing),
+    ("balls-in-balls", nested),
+    ("two-erasers-that-overlap", two_erasers),
+    ("the-eye-inside-a-solid", eye_inside),
+    ("a-solid-beyond-near-and-far", beyond_near_and_far),
+    ("a-cut-magnified", magnified),
+    ("a-cut-over-a-magnifier", over_magnifier),
+];
+
+/// Pixels of a picture's side.
+pub const SIDE: u32 = 500;
+/// Seen from +z; a picture is so many units high.
+const HEIGHT: f64 = 3.0;
+pub const ABOVE: &str = "eye = [0, 0, 5]\ntarget = [0, 0, 0]\northographic_height = 3";
+
+/// A lens over all above a height.
+pub fn above(z: f64, filter: &str) -> String {
+    lens("cut", &format!("box = {{ min = [-3, -3, {z}], max = [3, 3, 3] }}"), filter)
+}
+
+fn lens(name: &str, shape: &str, filter: &str) -> String {
+    format!("[[lens]]\nname = \"{name}\"\nshape.{shape}\nfilters = [{filter}]\nglass = false\n")
+}
+
+pub const CAP: &str = "{ erase = { cap = \"tomato\" } }";
+
+/// Pixels of an area seen from above.
+pub fn pixels(area: f64) -> f64 {
+    area * (f64::from(SIDE) / HEIGHT).powi(2)
+}
+
+fn one_ball() -> Vec<Part> {
+    vec![("ball", vec![ball(1.0, 192)])]
+}
+
+fn plane(draw: Draw) -> Result<(), String> {
+    let frame = draw(&planned(one_ball(), SIDE, ABOVE, &above(0.3, CAP)))?;
+    let aovs = maps(&frame)?;
+    // It lies in the plane, and faces the viewer.
+    let off =
+        |at: usize| (aovs.depth[at] - 4.7).abs() > 1e-4 || (Vec3::from(aovs.normals[at]) - Vec3::Z).length() > 1e-5;
+    if let Some(at) = (0..aovs.depth.len()).find(|at| cap_maker(aovs.triangles[*at]).is_some() && off(*at)) {
+        return Err(format!("pixel {at} has depth {} and normal {:?}", aovs.depth[at], aovs.normals[at]));
+    }
+    has_area(aovs, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+fn plane_in_perspective(draw: Draw) -> Result<(), String> {
+    let camera = "eye = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40";
+    let frame = draw(&planned(one_ball(), SIDE, camera, &above(0.3, CAP)))?;
+    let scale = 0.5 * f64::from(SIDE) / 20f64.to_radians().tan() / 3.7;
+    has_area(maps(&frame)?, 0, PI * (1.0 - 0.09) * scale * scale)
+}
+
+/// Where two spheres meet they have a circle in common.
+fn sphere(draw: Draw) -> Result<(), String> {
+    let cut = lens("cut", "sphere = { center = [0, 0, 1], radius = 0.8 }", CAP);
+    let frame = draw(&planned(one_ball(), SIDE, ABOVE, &cut))?;
+    let height: f64 = (1.0 + 1.0 - 0.64) / 2.0;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - height * height)))
+}
+
+/// The walls of a hollow housing, and a part within it that touches none of them.
+pub fn housing_and_part() -> Vec<Part> {
+    let hollow = with(cuboid(Vec3::ZERO, Vec3::ONE), turned(cuboid(Vec3::ZERO, Vec3::splat(0.8))));
+    vec![("housing", vec![hollow]), ("part", vec![cuboid(Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.4, 0.3, 0.5))])]
+}
+
+fn housing(draw: Draw) -> Result<(), String> {
+    // Turned, so that no edge runs along a row of pixels.
+    let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+    let frame = draw(&planned(housing_and_part(), SIDE, &camera, &above(0.2, CAP)))?;
+    let aovs = maps(&frame)?;
+    has_area(aovs, 0, pixels(4.0 - 2.56))?;
+    has_area(aovs, 1, pixels(0.8 * 0.6))
+}
+
+/// The inner one of solids that lie in each other has the cap; and there are more crossings than there is room at first.
+fn nested(draw: Draw) -> Result<(), String> {
+    const NAMES: [&str; 10] = ["b0", "b1", "b2", "b3", "b4", "b5", "b6", "b7", "b8", "b9"];
+    let radius = |i: usize| 1.1 - 0.1 * i as f64;
+    let parts = NAMES.iter().enumerate().map(|(i, name)| (*name, vec![ball(radius(i), 192)])).collect();
+    let frame = draw(&planned(parts, SIDE, ABOVE, &above(0.0, CAP)))?;
+    let aovs = maps(&frame)?;
+    for i in 0..NAMES.len() {
+        let hole = if i + 1 < NAMES.len() { radius(i + 1) } else { 0.0 };
+        has_area(aovs, i, pixels(PI * (radius(i).powi(2) - hole.powi(2))))?;
+    }
+    Ok(())
+}
+
+/// A step: half the ball cut at one height, half at another, with no wall where one eraser lies in the other.
+fn two_erasers(draw: Draw) -> Result<(), String> {
+    let left = lens("left", "box = { min = [-3, -3, 0.3], max = [0.2, 3, 3] }", CAP);
+    let right = lens("right", "box = { min = [0, -3, -0.2], max = [3, 3, 3] }", CAP);
+    let frame = draw(&planned(one_ball(), SIDE, ABOVE, &(left + &right)))?;
+    let aovs = maps(&frame)?;
+    has_area(aovs, 0, pixels(PI / 2.0 * (1.0 - 0.09 + 1.0 - 0.04)))?;
+    // Those of `left` within `right` would lie at its height.
+    let within = |at: usize| at % SIDE as usize > SIDE as usize / 2 && (aovs.depth[at] - 4.7).abs() < 1e-3;
+    let wrong = (0..aovs.depth.len()).filter(|at| cap_maker(aovs.triangles[*at]).is_some() && within(*at)).count();
+    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} pixels are closed where nothing is left")) }
+}
+
+/// All around the eye a cap at one distance, whatever lies before the near plane.
+fn eye_inside(draw: Draw) -> Result<(), String> {
+    let camera = "eye = [0.1, 0.2, 0.3]\ntarget = [0, 0, -1]\nfov_y = 80\nnear = 0.2";
+    let cut = lens("cut", "sphere = { center = [0.1, 0.2, 0.3], radius = 0.4 }", CAP);
+    let opened = planned(one_ball(), 120, camera, &cut);
+    let frame = draw(&opened)?;
+    let aovs = maps(&frame)?;
+    let view = &opened.plan.view;
+    for at in 0..aovs.depth.len() {
+        let (x, y) = ((at % 120) as f64 + 0.5, (at / 120) as f64 + 0.5);
+        let away = view.ray(x, y).at(f64::from(aovs.depth[at])).distance(view.eye);
+        if cap_maker(aovs.triangles[at]).is_none() || (away - 0.4).abs() > 1e-4 {
+            return Err(format!("at {x},{y} triangle {} is seen {away} from the eye", aovs.triangles[at]));
+        }
+    }
+    Ok(())
+}
+
+/// What lies beyond the far plane, or before the near one, is part of the solid all the same.
+fn beyond_near_and_far(draw: Draw) -> Result<(), String> {
+    let tall = vec![("bar", vec![cuboid(Vec3::ZERO, Vec3::new(0.5, 0.6, 9.0))])];
+    let camera = format!("{ABOVE}\nnear = 4\nfar = 5.5");
+    let cut = lens("cut", "box = { min = [-3, -3, -0.2], max = [3, 3, 0.3] }", CAP);
+    let opened = planned(tall, SIDE, &camera, &cut);
+    let frame = draw(&opened)?;
+    let aovs = maps(&frame)?;
+    // The one cap that is seen faces away: the bar goes on to the eye before the near plane.
+    has_area(aovs, 0, pixels(1.2))?;
+    let front = |at: &usize| cap_maker(aovs.triangles[*at]).is_some() && (aovs.depth[*at] - 4.7).abs() < 1e-4;
+    let seen = (0..aovs.depth.len()).filter(front).count();
+    if seen == cap_pixels(aovs, 0) { Ok(()) } else { Err(format!("only {seen} pixels show the nearer cap")) }
+}
+
+fn magnified(draw: Draw) -> Result<(), String> {
+    let small = vec![("ball", vec![ball(0.5, 192)])];
+    let loupe = lens("loupe", "sphere = { center = [0, 0, 0], radius = 4 }", "{ magnify = { factor = 2 } }");
+    let frame = draw(&planned(small, SIDE, ABOVE, &(above(0.15, CAP) + &loupe)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+fn over_magnifier(draw: Draw) -> Result<(), String> {
+    let small = vec![("ball", vec![ball(0.5, 192)])];
+    let loupe = lens("loupe", "sphere = { center = [0, 0, 0], radius = 4 }", "{ magnify = { factor = 2 } }");
+    let frame = draw(&planned(small, SIDE, ABOVE, &(loupe + &above(0.3, CAP))))?;
+    let aovs = maps(&frame)?;
+    let middle = (SIDE / 2 * SIDE + SIDE / 2) as usize;
+    if (Vec3::from(aovs.normals[middle]) - Vec3::Z).length() > 1e-5 {
+        return Err(format!("the cut faces {:?}", aovs.normals[middle]));
+    }
+    has_area(aovs, 0, pixels(PI * (1.0 - 0.09)))
+}

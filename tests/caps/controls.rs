@@ -1,0 +1,72 @@
+//! What has no caps, and that the areas would tell.
+
+use glam::Vec3;
+use libtest_mimic::{Failed, Trial};
+
+use crate::cases::{ABOVE, CAP, SIDE, above, pixels};
+use crate::open::Opened;
+use crate::solids::{ball, cuboid, planned, with};
+use crate::{cap_pixels, has_area, maps, on_cpu};
+
+pub fn trials() -> Vec<Trial> {
+    let trial = |name: &str, check: fn() -> Result<(), String>| {
+        Trial::test(format!("{name}::cpu"), move || check().map_err(Failed::from))
+    };
+    vec![
+        trial("an-open-mesh-is-named-and-left-open", open_mesh),
+        trial("an-eraser-without-a-cap-closes-nothing", without_cap),
+        trial("what-takes-whole-objects-closes-nothing", by_object),
+        trial("a-hole-turned-the-wrong-way-changes-the-area", turned_hole),
+        trial("a-lens-shifted-by-a-hundredth-changes-the-area", shifted),
+    ]
+}
+
+/// The caps of node 0 in pixels.
+fn caps(opened: &Opened) -> Result<usize, String> {
+    let frame = on_cpu(opened)?;
+    Ok(cap_pixels(maps(&frame)?, 0))
+}
+
+fn open_mesh() -> Result<(), String> {
+    let mut torn = ball(1.0, 64);
+    // One at the equator: those at the poles have no area.
+    torn.triangles.remove(64 * 31 + 32);
+    let opened = planned(vec![("ball", vec![torn])], SIDE, ABOVE, &above(0.3, CAP));
+    let warning = "`cap` of lens `cut` leaves open what is not closed: ball (3 of ";
+    match (&opened.plan.warnings[..], caps(&opened)?) {
+        ([only], 0) if only.starts_with("spec.toml:13: ") && only.contains(warning) => Ok(()),
+        (warnings, count) => Err(format!("{count} pixels, and {warnings:?}")),
+    }
+}
+
+fn without_cap() -> Result<(), String> {
+    let opened = planned(vec![("ball", vec![ball(1.0, 64)])], SIDE, ABOVE, &above(0.3, "\"erase\""));
+    if caps(&opened)? == 0 && opened.plan.bodies.is_empty() { Ok(()) } else { Err("something is closed".into()) }
+}
+
+fn by_object() -> Result<(), String> {
+    let lens = above(0.3, CAP) + "by = \"object\"\n";
+    let opened = planned(vec![("ball", vec![ball(1.0, 64)])], SIDE, ABOVE, &lens);
+    let is_told = opened.plan.warnings.iter().any(|warning| warning.contains("`cap` of lens `cut` closes nothing"));
+    if caps(&opened)? == 0 && is_told { Ok(()) } else { Err(format!("{:?}", opened.plan.warnings)) }
+}
+
+/// The wall of a hole that is not turned inside out makes no hole: the surface winds twice around it.
+fn turned_hole() -> Result<(), String> {
+    let filled = with(cuboid(Vec3::ZERO, Vec3::ONE), cuboid(Vec3::ZERO, Vec3::splat(0.8)));
+    let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+    let opened = planned(vec![("housing", vec![filled])], SIDE, &camera, &above(0.2, CAP));
+    let frame = on_cpu(&opened)?;
+    has_area(maps(&frame)?, 0, pixels(4.0))?;
+    must_differ(has_area(maps(&frame)?, 0, pixels(4.0 - 2.56)))
+}
+
+fn shifted() -> Result<(), String> {
+    let opened = planned(vec![("ball", vec![ball(1.0, 192)])], SIDE, ABOVE, &above(0.31, CAP));
+    let frame = on_cpu(&opened)?;
+    must_differ(has_area(maps(&frame)?, 0, pixels(std::f64::consts::PI * (1.0 - 0.09))))
+}
+
+fn must_differ(same: Result<(), String>) -> Result<(), String> {
+    if same.is_err() { Ok(()) } else { Err("the area does not tell".into()) }
+}
