@@ -46,7 +46,10 @@ fn composited(pixel: vec2u) -> vec4f {
         }
         let met = meeting(pick.item, pick.triangle, ray);
         let fragment = classified(pick, tile, pixel, ray);
-        let shaded = shade(fragment, met, ray, passed);
+        var shaded = shade(fragment, met, ray, passed);
+        if CONTACT {
+            shaded.color = with_contact_lines(shaded.color, fragment, met, tile, pixel, ray);
+        }
         passed = also_passed(passed, fragment, shaded);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);

@@ -33,7 +33,7 @@ impl Module {
         match self {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
             Module::Visibility => &[&[VISIBILITY], VOLUMES, CLASSIFYING],
-            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, FINISH, RESOLVE]],
+            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
             Module::Screen => &[&[FINISH, SCREEN]],
@@ -66,6 +66,7 @@ const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");
 const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
 const GLASS: &str = include_str!("../../shaders/gpu/glass.wgsl");
+const CONTACT: &str = include_str!("../../shaders/gpu/contact.wgsl");
 const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const CUSTOM: &str = include_str!("../../shaders/gpu/custom.wgsl");
