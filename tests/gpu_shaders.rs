@@ -23,6 +23,7 @@ const LITTLE: Needs = Needs {
     caps: false,
     soft: false,
     glass: false,
+    contact: false,
     translucent: false,
     textures: false,
     vertex_colors: false,
@@ -48,6 +49,7 @@ const MOST: Needs = Needs {
     caps: true,
     soft: true,
     glass: true,
+    contact: true,
     translucent: true,
     textures: true,
     vertex_colors: true,
@@ -299,7 +301,7 @@ fn records_of_the_plan_and_the_scene_have_the_same_layout_in_wgsl() {
     assert_eq!(size("Op"), size_of::<Op>());
     same_layout!(&module, "Light", LightRecord, [kind, range, cos_inner, cos_outer, position, direction, color]);
     assert_eq!(size("Light"), size_of::<LightRecord>());
-    same_layout!(&module, "Glass", GlassRecord, [color, opacity, rim, outline]);
+    same_layout!(&module, "Glass", GlassRecord, [color, opacity, rim, outline, contact]);
     assert_eq!(size("Glass"), size_of::<GlassRecord>());
     same_layout!(&module, "TextureSlot", TextureSlot, [texture, uv_set, offset, matrix]);
     assert_eq!(size("TextureSlot"), size_of::<TextureSlot>());

@@ -60,6 +60,7 @@ fn lenses() {
     let Filter::Show(ShowWhat::Alternate(name)) = &cut.filters[0].value else { panic!("show") };
     assert_eq!(name.value, "bones");
     assert!(!cut.enabled && cut.priority == -3);
+    assert_eq!([probe, cut].map(|lens| lens.glass.map(|glass| glass.contact)), [Some(2.0), Some(0.0)]);
 }
 
 #[test]

@@ -8,7 +8,8 @@ struct Glass {
     rim: f32,
     // Pixels.
     outline: f32,
-    pad: f32,
+    // Of the line on the scene where the surface meets it, pixels.
+    contact: f32,
 }
 
 // Opacity of a lens surface seen at the cosine `facing`, `silhouette` pixels inside its outline.
@@ -46,4 +47,44 @@ fn silhouette_distance(ray: PixelRay, entry: f32, entry_normal: vec3f, exit: f32
     }
     let distance = gap / max(length(slope), 1e-20);
     return select(distance, 0.5 * distance, smooth_join != 0u);
+}
+
+// The sine of the angle between two directions that count as one: at less, rounding moves a line by pixels.
+const SAME_DIRECTION: f32 = 1e-3;
+// By how many times a pixel's width surfaces may part in depth from one pixel to the next for a line at its full width:
+// seen more edge on, they may end before they meet.
+const STEEPEST: f32 = 16.0;
+
+// Pixels from a fragment to the line where its surface and a lens's meet; very far where the two lie in each other.
+// The ray meets the lens `gap` behind the fragment; `lens_normal` is the lens's normal there, and `beside` that of the
+// same face beside the fragment, both of any length. Each alone is right to first order and finds lines that are none:
+// `lens_normal` along the lens's outline, `beside` in the middle of the lens. Their mean finds none there, and follows
+// curved surfaces (the trapezoidal rule).
+fn contact_distance(ray: PixelRay, depth: f32, normal: vec3f, gap: f32, lens_normal: vec3f, beside: vec3f) -> f32 {
+    if length(cross(normal, beside)) <= SAME_DIRECTION * length(beside) {
+        return 1e9;
+    }
+    let pixel = length(ray.origin_dx + ray.direction_dx * depth);
+    let least = abs(gap) * length(ray.direction) / (STEEPEST * pixel);
+    let at_hit = plane_distance(ray, depth, normal, gap, lens_normal);
+    let at_fragment = plane_distance(ray, depth, normal, gap, beside);
+    return max(least, 0.5 * (at_hit + at_fragment));
+}
+
+// The same to a plane: how far the fragment is from it, over how much that changes from pixel to pixel along the
+// fragment's surface.
+fn plane_distance(ray: PixelRay, depth: f32, normal: vec3f, gap: f32, plane_normal: vec3f) -> f32 {
+    let facing = dot(normal, ray.direction);
+    let slope = 1.0 / select(facing, 1e-20, abs(facing) < 1e-20);
+    let across_x = ray.origin_dx + ray.direction_dx * depth;
+    let across_y = ray.origin_dy + ray.direction_dy * depth;
+    let along_x = across_x - ray.direction * (dot(normal, across_x) * slope);
+    let along_y = across_y - ray.direction * (dot(normal, across_y) * slope);
+    let change = length(vec2f(dot(plane_normal, along_x), dot(plane_normal, along_y)));
+    return abs(gap * dot(plane_normal, ray.direction)) / max(change, 1e-30);
+}
+
+// A fragment's colour so many pixels from the line where it meets a lens's surface.
+fn with_contact_line(color: vec3f, glass: Glass, distance: f32) -> vec3f {
+    return mix(color, glass.color.rgb, line_coverage(distance, glass.contact) * glass.color.a);
 }

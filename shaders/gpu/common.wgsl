@@ -3,9 +3,9 @@
 // that of a set of one lens's parts, and `LIGHTS`, the number of lights; and flags, see `Needs`: whether there are lenses
 // or rules (`LENSES`), rays are cut into layers (`LAYERS`), some lens takes something away or shows something
 // (`TAKEN_AWAY`), some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`,
-// `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`) or closes what it cuts
-// (`CAPS`), is soft (`SOFT`) or has a surface (`GLASS`), something
-// may be seen through something else (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
+// `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`) or closes what it cuts (`CAPS`), is soft (`SOFT`), has a
+// surface (`GLASS`) or one with a line where it meets the scene (`CONTACT`), something may be seen through something else
+// (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
 // (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`). `CHANNELS`: how many numbers at vertices filters
 // read, at least 1.

@@ -4,6 +4,16 @@ fn is_glass_before(a: GlassHit, b: GlassHit) -> bool {
     return a.depth < b.depth || (a.depth == b.depth && a.key < b.key);
 }
 
+// One end of the crossing of a lens of one convex part; `side`: 0 where the ray enters it, 1 where it leaves.
+fn span_end(part: u32, span: Span, side: u32) -> GlassHit {
+    return GlassHit(select(span.exit, span.entry, side == 0u), 2u * parts[part].lens + side, true, part, span, side == 1u);
+}
+
+// Whether the eye can see it.
+fn is_drawn(hit: GlassHit) -> bool {
+    return hit.depth > frame.near && hit.depth < frame.far && is_seen(hit);
+}
+
 // The next lens surface behind `after` that the eye can see.
 fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
     let ray = lens_ray(sample_point(pixel));
@@ -22,9 +32,8 @@ fn next_glass(tile: TileRecord, pixel: vec2u, after: GlassHit) -> GlassHit {
         }
         let span = part_span(asked, ray);
         for (var side = 0u; side < select(0u, 2u, span.hit); side += 1u) {
-            let hit = GlassHit(select(span.exit, span.entry, side == 0u), 2u * rank + side, true, part, span, side == 1u);
-            let within = hit.depth > frame.near && hit.depth < frame.far;
-            if within && is_seen(hit) && is_glass_before(after, hit) && is_glass_before(hit, best) {
+            let hit = span_end(part, span, side);
+            if is_drawn(hit) && is_glass_before(after, hit) && is_glass_before(hit, best) {
                 best = hit;
             }
         }

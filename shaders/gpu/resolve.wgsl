@@ -45,7 +45,11 @@ fn composited(pixel: vec2u) -> vec4f {
             break;
         }
         let met = met_at(pick, tile, pixel, ray);
-        let shaded = shade(met.fragment, met.at, ray, passed);
+        var shaded = shade(met.fragment, met.at, ray, passed);
+        // All of a cap lies in a lens's surface.
+        if CONTACT && !is_cap(pick.triangle) {
+            shaded.color = with_contact_lines(shaded.color, met.fragment, met.at, tile, pixel, ray);
+        }
         passed = also_passed(passed, met.fragment, shaded);
         let opacity = shaded.opacity * shaded.coverage;
         front = over(front, shaded.color, opacity);

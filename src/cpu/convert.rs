@@ -56,6 +56,6 @@ pub fn glass(glass: &GlassRecord) -> wgsl::Glass {
         opacity: glass.opacity,
         rim: glass.rim,
         outline: glass.outline,
-        pad: glass.pad,
+        contact: glass.contact,
     }
 }

@@ -14,49 +14,56 @@ pub struct GlassHit {
     pub color: glam::Vec4,
 }
 
+/// A crossing of a lens that draws a line where the scene meets its surface; that may be a face that is not drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    pub rank: usize,
+    pub part: usize,
+    pub crossing: Crossing,
+}
+
 /// The lens surfaces that a ray meets; keeps its allocations from ray to ray.
 #[derive(Debug, Default)]
 pub struct GlassHits {
     /// Nearest first.
     pub hits: Vec<GlassHit>,
+    /// By rank, the nearer first.
+    pub contacts: Vec<Contact>,
     boundaries: Vec<Boundary>,
 }
 
 impl GlassHits {
     /// Finds the lens surfaces that a ray meets between near and far.
     pub fn find(&mut self, plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay) {
-        let Self { hits, boundaries } = self;
-        hits.clear();
-        find(plan, ranks, ray, pixel, boundaries, hits);
-        hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.rank.cmp(&b.rank)));
+        self.hits.clear();
+        self.contacts.clear();
+        self.find_by_rank(plan, ranks, ray, pixel);
+        self.hits.sort_unstable_by(|a, b| a.depth.total_cmp(&b.depth).then(a.rank.cmp(&b.rank)));
     }
-}
 
-fn find(
-    plan: &Plan,
-    ranks: &[usize],
-    ray: &Ray,
-    pixel: &wgsl::PixelRay,
-    boundaries: &mut Vec<Boundary>,
-    hits: &mut Vec<GlassHit>,
-) {
-    for &rank in ranks {
-        let lens = &plan.lenses[rank];
-        let Some(glass) = &lens.glass else { continue };
-        boundaries.clear();
-        lens.volume.boundaries(ray, plan.view.near, plan.view.far, boundaries);
-        for boundary in boundaries.iter() {
-            let part = &lens.volume.parts[boundary.part];
-            let crossing = boundary.crossing();
-            if !part.form.is_seen(crossing.face) {
-                continue;
-            }
-            let facing = lens.volume.normal(ray, boundary).dot(ray.direction.normalize()).abs();
-            let silhouette = silhouette(plan, part, ray, &boundary.span, pixel);
-            let opacity = wgsl::glass_opacity(record(glass), facing as f32, silhouette);
-            if opacity > 0.0 {
-                let color = g4(a4(glass.color)).truncate().extend(opacity);
-                hits.push(GlassHit { depth: boundary.depth, rank, color });
+    fn find_by_rank(&mut self, plan: &Plan, ranks: &[usize], ray: &Ray, pixel: &wgsl::PixelRay) {
+        let Self { hits, contacts, boundaries } = self;
+        for &rank in ranks {
+            let lens = &plan.lenses[rank];
+            let Some(glass) = &lens.glass else { continue };
+            boundaries.clear();
+            lens.volume.boundaries(ray, plan.view.near, plan.view.far, boundaries);
+            for boundary in boundaries.iter() {
+                let part = &lens.volume.parts[boundary.part];
+                let crossing = boundary.crossing();
+                if glass.contact > 0.0 {
+                    contacts.push(Contact { rank, part: boundary.part, crossing: *crossing });
+                }
+                if !part.form.is_seen(crossing.face) {
+                    continue;
+                }
+                let facing = lens.volume.normal(ray, boundary).dot(ray.direction.normalize()).abs();
+                let silhouette = silhouette(plan, part, ray, &boundary.span, pixel);
+                let opacity = wgsl::glass_opacity(record(glass), facing as f32, silhouette);
+                if opacity > 0.0 {
+                    let color = g4(a4(glass.color)).truncate().extend(opacity);
+                    hits.push(GlassHit { depth: boundary.depth, rank, color });
+                }
             }
         }
     }

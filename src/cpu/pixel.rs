@@ -1,6 +1,7 @@
 //! Everything on the view rays of a block: layers, hits in order, the visible fragment, the colour.
 
 mod caps;
+mod contact;
 mod moved;
 mod removed;
 
@@ -9,7 +10,7 @@ use glam::{Vec2, Vec3, Vec4};
 use super::block::{Block, BlockRays, Camera};
 use super::convert::{d3, v2};
 use super::geometry::{Geometry, Reach, Triangle};
-use super::glass::{GlassHit, GlassHits};
+use super::glass::GlassHits;
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
@@ -200,18 +201,19 @@ impl<'a> Tracer<'a> {
         let one = &rays[sample];
         let pixel = self.pixel_ray(&one.ray, one.at);
         glass.find(self.plan, ranks, &one.ray, &pixel);
-        self.composite(fragments(sample, one, listed), &glass.hits, &pixel)
+        self.composite(fragments(sample, one, listed), glass, &one.ray, &pixel)
     }
 
     fn composite<'f>(
         &self,
         fragments: impl Iterator<Item = &'f Fragment>,
-        glass: &[GlassHit],
+        surfaces: &GlassHits,
+        ray: &Ray,
         pixel: &wgsl::PixelRay,
     ) -> Vec4 {
         let mut front = Vec4::ZERO;
         let mut passed = LensSet::EMPTY;
-        let mut glass = glass.iter().peekable();
+        let mut glass = surfaces.hits.iter().peekable();
         for fragment in fragments {
             while let Some(hit) = glass.next_if(|hit| hit.depth < f64::from(fragment.depth)) {
                 front = over(front, hit.color.truncate(), hit.color.w);
@@ -221,7 +223,8 @@ impl<'a> Tracer<'a> {
                 passed = passed | fragment.region.stack;
             }
             let opacity = shaded.opacity * shaded.coverage;
-            front = over(front, shaded.color, opacity);
+            let color = self.with_contact_lines(shaded.color, fragment, &surfaces.contacts, ray, pixel);
+            front = over(front, color, opacity);
             if opacity >= wgsl::OPAQUE_FROM.0 {
                 return front;
             }

@@ -89,6 +89,12 @@ impl Corners<'_> {
         a * weights.x + b * weights.y + c * weights.z
     }
 
+    /// Of the triangle, unit length; zero for one without area.
+    fn normal(&self) -> Vec3 {
+        let [a, b, c] = self.around;
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
     /// Texture coordinates of the corners in one set; zero where the primitive has none.
     fn uv(&self, set: u32) -> [Vec2; 3] {
         match &self.primitive.uv[set.min(1) as usize] {
@@ -139,8 +145,7 @@ impl<'a> Shader<'a> {
         let instance = &self.plan.instances[fragment.instance as usize];
         let item = &self.plan.items[instance.item];
         let corners = self.corners(item, fragment);
-        let geometric =
-            (corners.around[1] - corners.around[0]).cross(corners.around[2] - corners.around[0]).normalize_or_zero();
+        let geometric = corners.normal();
         let view = -g3(ray.direction).normalize();
         let surface = self.surface(item, fragment, &corners, geometric, view, ray);
         let (normal, position) = (g3(surface.normal), g3(surface.position));
@@ -184,6 +189,12 @@ impl<'a> Shader<'a> {
             shaded = wgsl::faded_shaded(shaded, wgsl::filter_coverage(*op, shaded, spot), amount);
         }
         Shaded { color: g3(shaded.color), opacity: shaded.opacity, coverage: shaded.coverage, normal }
+    }
+
+    /// Of the triangle that a fragment lies on, as shown; zero for one without area.
+    pub fn geometric_normal(&self, fragment: &Fragment) -> Vec3 {
+        let item = &self.plan.items[self.plan.instances[fragment.instance as usize].item];
+        self.corners(item, fragment).normal()
     }
 
     /// How much a lens's appearance filters count on a fragment shown at `position` (around the eye).

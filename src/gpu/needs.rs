@@ -38,6 +38,8 @@ pub struct Needs {
     pub soft: bool,
     /// Some lens has a surface of its own.
     pub glass: bool,
+    /// Some lens draws a line where its surface meets the scene.
+    pub contact: bool,
     /// Something may be seen through something else.
     pub translucent: bool,
     /// Some material or filter has a texture.
@@ -86,6 +88,7 @@ impl Needs {
             caps,
             soft: plan.lenses.iter().any(|lens| lens.soft > 0.0),
             glass,
+            contact: plan.lenses.iter().filter_map(|lens| lens.glass).any(|glass| glass.contact > 0.0),
             translucent,
             textures: !scene.textures.textures.is_empty(),
             vertex_colors: primitives(scene).any(|p| p.colors.is_some()),
@@ -116,6 +119,7 @@ impl Needs {
             caps: false,
             soft: false,
             glass: false,
+            contact: false,
             stages: [false; 3],
             filters: 0,
             quantities: false,
@@ -129,6 +133,7 @@ impl Needs {
     pub fn without_shading(self) -> Self {
         Self {
             glass: false,
+            contact: false,
             textures: false,
             vertex_colors: false,
             lights: 0,
@@ -165,6 +170,7 @@ impl Needs {
             layers: true,
             taken_away: true,
             glass: true,
+            contact: true,
             translucent: true,
             textures: true,
             vertex_colors: true,
@@ -193,6 +199,7 @@ impl Needs {
             ("CAPS", self.caps),
             ("SOFT", self.soft),
             ("GLASS", self.glass),
+            ("CONTACT", self.contact),
             ("TRANSLUCENT", self.translucent),
             ("TEXTURES", self.textures),
             ("VERTEX_COLORS", self.vertex_colors),

@@ -44,7 +44,7 @@ impl Module {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
             Module::Visibility => &[&[LISTS, VISIBILITY], VOLUMES, CLASSIFYING],
             Module::Caps => &[&[LISTS, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
-            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, FINISH, RESOLVE]],
+            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
             Module::Screen => &[&[FINISH, SCREEN]],
@@ -82,6 +82,7 @@ const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");
 const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
 const GLASS: &str = include_str!("../../shaders/gpu/glass.wgsl");
+const CONTACT: &str = include_str!("../../shaders/gpu/contact.wgsl");
 const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const CUSTOM: &str = include_str!("../../shaders/gpu/custom.wgsl");

@@ -56,13 +56,14 @@ pub struct GlassRecord {
     pub rim: f32,
     /// Pixels.
     pub outline: f32,
-    pub pad: f32,
+    /// Of the line on the scene where the surface meets it, pixels; 0: none.
+    pub contact: f32,
 }
 
 impl From<Glass> for GlassRecord {
     fn from(glass: Glass) -> Self {
-        let Glass { color, opacity, rim, outline } = glass;
-        Self { color: color.to_linear(), opacity, rim, outline, pad: 0.0 }
+        let Glass { color, opacity, rim, outline, contact } = glass;
+        Self { color: color.to_linear(), opacity, rim, outline, contact }
     }
 }
 

@@ -222,11 +222,13 @@ pub struct Glass {
     pub rim: f32,
     /// Width of the silhouette line in pixels; 0 draws none.
     pub outline: f32,
+    /// Width in pixels of the line on the scene where the surface meets it; 0 draws none, 1 to 2 looks well.
+    pub contact: f32,
 }
 
 impl Default for Glass {
     fn default() -> Self {
-        Self { color: Color::rgb(0x9f, 0xd8, 0xff), opacity: 0.06, rim: 0.5, outline: 1.5 }
+        Self { color: Color::rgb(0x9f, 0xd8, 0xff), opacity: 0.06, rim: 0.5, outline: 1.5, contact: 0.0 }
     }
 }
 

@@ -61,13 +61,15 @@ fn scale() -> Value {
 
 fn glass() -> Value {
     let default = Glass::default();
-    let pixels = number(NumberRange::closed(0.0, 1000.0));
+    let pixels = || number(NumberRange::closed(0.0, 1000.0));
+    let contact = "Width of a line on the scene where the surface meets it, pixels; 0 draws none, 1 to 2 looks well.";
     let unit = || number(NumberRange::UNIT);
     let properties = json!({
         "color": described(reference("color"), "Of the lens surface.", default.color.to_string().into()),
         "opacity": described(unit(), "Face on.", short(default.opacity)),
         "rim": described(unit(), "Added edge on.", short(default.rim)),
-        "outline": described(pixels, "Width of the silhouette, pixels.", short(default.outline)),
+        "outline": described(pixels(), "Width of the silhouette, pixels.", short(default.outline)),
+        "contact": described(pixels(), contact, short(default.contact)),
     });
     json!({
         "description": "How the lens surface looks; false draws none.",

@@ -111,10 +111,12 @@ fn glass(item: &Item) -> Result<Option<Glass>, InputError> {
     let table = Table::open(item, "`glass`", keys::GLASS)?;
     let default = Glass::default();
     let number = |key, range| table.read(key, |item: &Item| item.number32(range));
+    let width = NumberRange::closed(0.0, 1000.0);
     Ok(Some(Glass {
         color: table.read("color", Item::color)?.unwrap_or(default.color),
         opacity: number("opacity", NumberRange::UNIT)?.unwrap_or(default.opacity),
         rim: number("rim", NumberRange::UNIT)?.unwrap_or(default.rim),
-        outline: number("outline", NumberRange::closed(0.0, 1000.0))?.unwrap_or(default.outline),
+        outline: number("outline", width)?.unwrap_or(default.outline),
+        contact: number("contact", width)?.unwrap_or(default.contact),
     }))
 }
