@@ -53,7 +53,7 @@ fn silhouette_distance(ray: PixelRay, entry: f32, entry_normal: vec3f, exit: f32
 const SAME_DIRECTION: f32 = 1e-3;
 // By how many times a pixel's width surfaces may part in depth from one pixel to the next for a line at its full width:
 // seen more edge on, they may end before they meet.
-const STEEPEST: f32 = 16.0;
+const STEEPEST: f32 = 8.0;
 
 // Pixels from a fragment to the line where its surface and a lens's meet; very far where the two lie in each other.
 // The ray meets the lens `gap` behind the fragment; `lens_normal` is the lens's normal there, and `beside` that of the

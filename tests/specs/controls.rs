@@ -63,6 +63,7 @@ pub fn trials() -> Vec<Trial> {
     trials.push(Trial::test("comparison::most-pixels-are-interior", most_are_interior));
     trials.push(Trial::test("comparison::another-size-fails", another_size_fails));
     trials.push(Trial::test("comparison::a-wrong-golden-fails", wrong_golden_fails));
+    trials.push(Trial::test("comparison::contact-lines-that-are-missing-fail", missing_contact_lines_fail));
     trials
 }
 
@@ -117,6 +118,24 @@ fn wrong_golden_fails() -> Result<(), Failed> {
     for (name, wrong) in [("two steps", two_steps), ("one step everywhere", everywhere), ("a row", shifted)] {
         if golden::compare(&right, &wrong).is_ok() {
             return Err(format!("a golden that differs by {name} passes").into());
+        }
+    }
+    Ok(())
+}
+
+/// Contact lines lie on the edges of lenses, where colours may differ: they must be seen to be missing all the same.
+fn missing_contact_lines_fail() -> Result<(), Failed> {
+    for name in ["contact-two-lenses", "contact-wide"] {
+        let path = entry::folder().join(format!("transparency/{name}.toml"));
+        let text = std::fs::read_to_string(&path)?;
+        let right = reference::of(&open(&path, &text, |_| ())?.1);
+        let without = |spec: &mut Spec| {
+            spec.lenses.iter_mut().filter_map(|lens| lens.glass.as_mut()).for_each(|glass| glass.contact = 0.0);
+        };
+        let Opened { scene, plan } = open(&path, &text, without)?.1;
+        let frame = cpu::Renderer::new(&scene, &plan).render(true, &|_| ());
+        if compare(&right, &frame)?.verdict().is_ok() {
+            return Err(format!("{name} without its lines passes").into());
         }
     }
     Ok(())
