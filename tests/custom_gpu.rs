@@ -13,8 +13,7 @@ use wgpu::util::DeviceExt;
 
 /// Surfaces that each filter is called for.
 const CALLS: usize = 512;
-/// Of one number against the other, relative above 1. GPUs may compute `pow`, `sin` and the like in few bits
-/// (llvmpipe, Mesa 22.3: 2e-5).
+/// Of one number against the other, relative above 1. GPUs may compute `pow`, `sin` and the like in few bits.
 const TOLERANCE: f32 = 1e-3;
 /// Words that one call reads or writes: a surface, and a colour behind it.
 const WORDS: usize = SURFACE_WORDS + 3;
