@@ -95,6 +95,7 @@ const MASK_OBJECT: u32 = 1u;
 const MASK_SHOWN_BY: u32 = 2u;
 const MASK_REMOVED_BY: u32 = 3u;
 const MASK_MOVERS: u32 = 4u;
+const MASK_SIMPLIFIED_BY: u32 = 5u;
 
 // An instance of an item, by its number in the plan: twin of `records::ItemRecord`, and the item's masks.
 struct Item {
@@ -128,7 +129,11 @@ struct Item {
     caps: u32,
     // The number of its node in its file.
     node: u32,
-    masks: array<u32, 5u * WORDS>,
+    // Which version of its primitive it is: the share of the triangles; 1: all of it.
+    ratio: f32,
+    // How far versions of it may lie from each other.
+    spread: f32,
+    masks: array<u32, 6u * WORDS>,
     // Of each channel, where its numbers start in `attributes`, or NONE, and a factor.
     channels: array<u32, 2u * CHANNELS>,
 }
@@ -169,6 +174,8 @@ struct Lens {
     op_count: u32,
     // Width over which it fades in from the boundary; 0: a sharp one.
     soft: f32,
+    // The share of the triangles that its `lod` leaves.
+    lod: f32,
     hides: array<u32, WORDS>,
 }
 

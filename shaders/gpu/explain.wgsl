@@ -23,7 +23,8 @@ fn explain() {
     let met = met_at(pick, tile, pixel, ray);
     var displayed = true;
     if !is_cap(pick.triangle) {
-        displayed = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth)).displayed;
+        let here = set_at(tile, pixel, pick.depth);
+        displayed = verdict_at(pick.item, ray, tile, pixel, pick.depth, here).displayed;
     }
     var passed = Set();
     for (var w = 0u; w < WORDS; w += 1u) {

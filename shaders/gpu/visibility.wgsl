@@ -99,7 +99,7 @@ fn next_behind(in: Varying) -> @location(0) vec2u {
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
 fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> vec2u {
-    let verdict = walk(item, ray, depth, inside);
+    let verdict = verdict_at(item, ray, tile_at(pixel), pixel, depth, inside);
     if !verdict.displayed {
         discard;
     }

@@ -5,6 +5,11 @@ struct Verdict {
     around: Set,
     // Those that act, or the rule that acts in their place.
     stack: Set,
+    // It is there, in one version or another.
+    there: bool,
+    // The share of the triangles in the version that is seen.
+    ratio: f32,
+    // It is there, and in this version.
     displayed: bool,
 }
 
@@ -32,7 +37,8 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
     if rule != NONE {
         return rule_verdict(item, rule, here);
     }
-    var verdict = Verdict(Set(), Set(), false);
+    var verdict = Verdict(Set(), Set(), false, 1.0, false);
+    var is_decided = false;
     var inside = here;
     var hidden = Set();
     var removed = false;
@@ -67,6 +73,10 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
             for (var j = 0u; j < WORDS; j += 1u) {
                 hidden.words[j] |= lenses[rank].hides[j];
             }
+            if VERSIONS && !shown && !is_decided && (item_mask(item, MASK_SIMPLIFIED_BY, word) & flag) != 0u {
+                is_decided = true;
+                verdict.ratio = lenses[rank].lod;
+            }
             if MOVERS && !shown && (movers & flag) != 0u {
                 if step == last_step || steps[step].rank != rank {
                     // It is seen elsewhere; only an account asks who else acts here.
@@ -91,7 +101,26 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
         }
     }
     let is_there = shown || (items[item].flags & ITEM_ALTERNATE) == 0u;
-    verdict.displayed = step == last_step && !removed && is_there;
+    verdict.there = step == last_step && !removed && is_there;
+    verdict.displayed = verdict.there && is_version(item, verdict.ratio);
+    return verdict;
+}
+
+fn is_version(item: u32, ratio: f32) -> bool {
+    return !VERSIONS || ratio == items[item].ratio;
+}
+
+// The same at a depth of the pixel's own ray. Where, along the ray, another version of an item is seen close by, all of it
+// is seen, too: simplified surfaces do not quite meet those that they stand for, and no gap may open between them.
+fn verdict_at(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32, here: Set) -> Verdict {
+    var verdict = walk(item, ray, depth, here);
+    if VERSIONS && verdict.there && !verdict.displayed && items[item].ratio == 1.0 {
+        for (var side = -1.0; side < 2.0; side += 2.0) {
+            let close_by = clamp(depth + side * items[item].spread, frame.near, frame.far);
+            let other = walk(item, ray, close_by, set_at(tile, pixel, close_by));
+            verdict.displayed = verdict.displayed || (other.there && other.ratio != verdict.ratio);
+        }
+    }
     return verdict;
 }
 
@@ -123,7 +152,7 @@ fn rule_holds(rank: u32, item: u32, around: Set) -> bool {
 
 // A rule's filters are the whole stack, on the plain scene: what lenses move or show is not there.
 fn rule_verdict(item: u32, rule: u32, here: Set) -> Verdict {
-    var verdict = Verdict(Set(), Set(), false);
+    var verdict = Verdict(Set(), Set(), false, 1.0, false);
     for (var w = 0u; w < WORDS; w += 1u) {
         verdict.around.words[w] = applying_word(item, here, w) & item_mask(item, MASK_SCOPE, w);
     }
@@ -132,7 +161,11 @@ fn rule_verdict(item: u32, rule: u32, here: Set) -> Verdict {
     verdict.stack.words[word] = flag;
     let shown = (item_mask(item, MASK_SHOWN_BY, word) & flag) != 0u;
     let gone = (item_mask(item, MASK_REMOVED_BY, word) & flag) != 0u || (items[item].flags & ITEM_ALTERNATE) != 0u;
-    verdict.displayed = items[item].step_count == 0u && (shown || !gone);
+    if (item_mask(item, MASK_SIMPLIFIED_BY, word) & flag) != 0u {
+        verdict.ratio = lenses[rule].lod;
+    }
+    verdict.there = items[item].step_count == 0u && (shown || !gone);
+    verdict.displayed = verdict.there && is_version(item, verdict.ratio);
     return verdict;
 }
 

@@ -108,7 +108,7 @@ fn stats(args: &RenderArgs, plan: &Plan, choice: &str, stages: &Stages) -> Strin
         "engine": (backend == "gpu").then_some(engine),
         "size": plan.view.size,
         "samples": plan.samples,
-        "triangles": plan.items.iter().map(|item| u64::from(item.triangles)).sum::<u64>(),
+        "triangles": plan.items.iter().filter(|item| !item.is_simplified()).map(|item| u64::from(item.triangles)).sum::<u64>(),
         "items": plan.items.len(),
         "lenses": plan.lenses.len(),
         "contents": plan.contents.len(),

@@ -1,4 +1,5 @@
-//! Triangles around the eye, in BVHs: one for each content in place, and one for all that lenses move.
+//! Triangles around the eye, in BVHs: one for each content in place, one for all that lenses simplify, and one for all that
+//! they move.
 
 use std::time::Duration;
 
@@ -66,14 +67,15 @@ impl Reach {
 }
 
 impl Geometry {
-    /// The geometry of each content in place, in their order, then that of everything moved.
+    /// The geometry of each content in place, in their order, then that of simplified versions in place, then that of
+    /// everything moved.
     pub fn build_all(scene: &Scene, plan: &Plan) -> Vec<Geometry> {
-        let in_place = |content: usize| {
-            move |instance: &Instance| !instance.is_moved() && plan.items[instance.item].content == content
-        };
+        let item = |instance: &Instance| &plan.items[instance.item];
+        let in_place = |instance: &Instance| !instance.is_moved() && !item(instance).is_simplified();
+        let simplified = |instance: &Instance| !instance.is_moved() && item(instance).is_simplified();
         (0..plan.contents.len())
-            .map(|content| Self::build(scene, plan, in_place(content)))
-            .chain(std::iter::once(Self::build(scene, plan, Instance::is_moved)))
+            .map(|content| Self::build(scene, plan, |own| in_place(own) && item(own).content == content))
+            .chain([Self::build(scene, plan, simplified), Self::build(scene, plan, Instance::is_moved)])
             .collect()
     }
 
@@ -122,11 +124,11 @@ fn triangles<'a>(
 ) -> impl ParallelIterator<Item = Triangle> + 'a {
     let item = &plan.items[instance.item];
     let model = &scene.models[item.model];
-    let primitive = &model.meshes[item.mesh].primitives[item.primitive];
+    let primitive = item.primitive_of(scene);
     let world = instance.shown_from_world * model.nodes[item.node].world_from_local;
     let scale = Reach::new(&plan.view).scale;
     let shown: Vec<DVec3> = primitive.positions.par_iter().map(|p| world.transform_point3(p.as_dvec3())).collect();
-    let numbered = primitive.triangles.par_iter().enumerate();
+    let numbered = item.triangle_list(scene).par_iter().enumerate();
     numbered.filter_map(move |(number, corners)| {
         let shown = corners.map(|i| shown[i as usize]);
         let is_near = scene::Aabb::from_points(shown).overlaps(&bounds);

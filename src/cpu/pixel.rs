@@ -87,9 +87,11 @@ impl<'a> Tracer<'a> {
         let anywhere = (lenses | plan.rule_ranks()).minus(plan.by_pixel);
         let needed = |lenses: LensSet| (lenses & anywhere).is_empty().then_some(lenses);
         let alternates = (1..plan.contents.len()).map(|content| needed(shown(content)));
+        let simplified = plan.items.iter().filter(|item| item.is_simplified());
+        let simplifying = simplified.fold(LensSet::EMPTY, |all, item| all | plan.simplifying_to(item));
         let altered_by = |instance: &Instance| {
             let item = &plan.items[instance.item];
-            let always = item.is_alternate() || item.translucent || instance.is_moved();
+            let always = item.is_alternate() || item.is_simplified() || item.translucent || instance.is_moved();
             (!always).then(|| plan.altering(item))
         };
         Self {
@@ -103,7 +105,7 @@ impl<'a> Tracer<'a> {
             translucent: plan.translucent(),
             altered_by: plan.instances.iter().map(altered_by).collect(),
             anywhere,
-            seen_by: std::iter::once(None).chain(alternates).chain([needed(moving)]).collect(),
+            seen_by: std::iter::once(None).chain(alternates).chain([needed(simplifying), needed(moving)]).collect(),
         }
     }
 
@@ -270,7 +272,7 @@ impl<'a> Tracer<'a> {
     fn verdict(&self, ray: &Ray, instance: u32, depth: f32, layers: &RayLayers, moved: &mut MovedLayers) -> Verdict {
         let instance = self.instance(instance);
         let depth = f64::from(depth);
-        self.plan.walk(instance, |step| match step.checked_sub(1) {
+        self.plan.verdict(instance, depth, |step, depth| match step.checked_sub(1) {
             None => layers.set_at(depth),
             Some(passed) => moved.below(self.plan, ray, &instance.steps[passed]).set_at(depth),
         })

@@ -211,9 +211,8 @@ impl<'a> Shader<'a> {
     }
 
     fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'a> {
-        let model = &self.scene.models[item.model];
-        let primitive = &model.meshes[item.mesh].primitives[item.primitive];
-        let indices = primitive.triangles[fragment.triangle as usize].map(|i| i as usize);
+        let primitive = item.primitive_of(self.scene);
+        let indices = item.triangle_list(self.scene)[fragment.triangle as usize].map(|i| i as usize);
         let to_eye = &self.transforms[fragment.instance as usize].point;
         let around = indices.map(|i| to_eye.transform_point3(primitive.positions[i]));
         Corners { primitive, indices, around, is_of_cap: false }

@@ -106,6 +106,7 @@ impl PixelAccount<'_> {
         let by = |wanted: fn(&Filter) -> bool| filters.iter().find(|filter| wanted(filter)).map(filter_name);
         by(|f| matches!(f, Filter::Show(_)))
             .or(by(|f| matches!(f, Filter::Erase { .. })))
+            .or(by(|f| matches!(f, Filter::Lod { .. })))
             .or(by(Filter::moves))
             .unwrap_or("nothing")
     }

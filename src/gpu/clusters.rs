@@ -3,11 +3,11 @@
 
 use std::time::Duration;
 
-use glam::Vec3A;
+use glam::{Vec3, Vec3A};
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::{Boundable, BvhBuildParams};
 
-use crate::scene::{Aabb, Primitive};
+use crate::scene::Aabb;
 
 /// So many triangles at the most: few enough to follow a lens's outline, enough to keep draws few.
 const MOST: u32 = 512;
@@ -30,14 +30,15 @@ pub struct Clustered {
 }
 
 impl Clustered {
-    pub fn new(primitive: &Primitive) -> Self {
-        let count = primitive.triangles.len() as u32;
+    pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+        let count = triangles.len() as u32;
+        let bounds = |own: &[u32]| bounds(positions, own.iter().map(|triangle| triangles[*triangle as usize]));
         let mut order: Vec<u32> = (0..count).collect();
         if count <= MOST {
-            let clusters = (count > 0).then(|| Cluster { first: 0, count, bounds: bounds(primitive, &order) });
+            let clusters = (count > 0).then(|| Cluster { first: 0, count, bounds: bounds(&order) });
             return Self { order, clusters: clusters.into_iter().collect() };
         }
-        let boxes: Vec<Boxed> = primitive.triangles.iter().map(|corners| Boxed::new(primitive, corners)).collect();
+        let boxes: Vec<Boxed> = triangles.iter().map(|corners| Boxed::new(positions, corners)).collect();
         let bvh = build_bvh2(&boxes, BvhBuildParams::fastest_build(), &mut Duration::default());
         drop(boxes);
         let mut clusters = Vec::new();
@@ -47,16 +48,15 @@ impl Clustered {
         lists.sort_unstable_by_key(|list| list[0]);
         for own in lists {
             let first = order.len() as u32;
-            clusters.push(Cluster { first, count: own.len() as u32, bounds: bounds(primitive, &own) });
+            clusters.push(Cluster { first, count: own.len() as u32, bounds: bounds(&own) });
             order.extend(own);
         }
         Self { order, clusters }
     }
 }
 
-fn bounds(primitive: &Primitive, triangles: &[u32]) -> Aabb {
-    let corners = triangles.iter().flat_map(|triangle| primitive.triangles[*triangle as usize]);
-    Aabb::from_points(corners.map(|corner| primitive.positions[corner as usize].as_dvec3()))
+fn bounds(positions: &[Vec3], triangles: impl Iterator<Item = [u32; 3]>) -> Aabb {
+    Aabb::from_points(triangles.flatten().map(|corner| positions[corner as usize].as_dvec3()))
 }
 
 /// The largest subtrees without too many triangles.
@@ -109,8 +109,8 @@ fn children(bvh: &Bvh2, node: u32) -> impl Iterator<Item = u32> + use<> {
 struct Boxed(obvhs::aabb::Aabb);
 
 impl Boxed {
-    fn new(primitive: &Primitive, corners: &[u32; 3]) -> Self {
-        let [a, b, c] = corners.map(|corner| Vec3A::from(primitive.positions[corner as usize]));
+    fn new(positions: &[Vec3], corners: &[u32; 3]) -> Self {
+        let [a, b, c] = corners.map(|corner| Vec3A::from(positions[corner as usize]));
         Self(obvhs::aabb::Aabb { min: a.min(b).min(c), max: a.max(b).max(c) })
     }
 }
@@ -123,27 +123,23 @@ impl Boundable for Boxed {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
 
-    /// A square of 64 x 64 quads, row by row.
-    fn grid() -> Primitive {
+    /// Corners and triangles of a square of 64 x 64 quads, row by row.
+    fn grid() -> (Vec<Vec3>, Vec<[u32; 3]>) {
         let corner = |x: u32, y: u32| y * 65 + x;
         let quad = |(x, y)| {
             let [a, b, c, d] = [corner(x, y), corner(x + 1, y), corner(x, y + 1), corner(x + 1, y + 1)];
             [[a, b, d], [a, d, c]]
         };
-        Primitive {
-            positions: (0..65 * 65).map(|i| Vec3::new((i % 65) as f32, (i / 65) as f32, 0.0)).collect(),
-            triangles: (0..64).flat_map(|y| (0..64).map(move |x| (x, y))).flat_map(quad).collect(),
-            ..Primitive::default()
-        }
+        let positions = (0..65 * 65).map(|i| Vec3::new((i % 65) as f32, (i / 65) as f32, 0.0)).collect();
+        (positions, (0..64).flat_map(|y| (0..64).map(move |x| (x, y))).flat_map(quad).collect())
     }
 
     #[test]
     fn every_triangle_stands_in_one_small_cluster() {
-        let Clustered { order, clusters } = Clustered::new(&grid());
+        let (positions, triangles) = grid();
+        let Clustered { order, clusters } = Clustered::new(&positions, &triangles);
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.into_iter().eq(0..8192));
@@ -153,7 +149,8 @@ mod tests {
             next += cluster.count;
             let own = &order[cluster.first as usize..next as usize];
             assert!(cluster.count <= MOST && own.is_sorted());
-            assert_eq!(cluster.bounds, bounds(&grid(), own));
+            let own = own.iter().map(|triangle| triangles[*triangle as usize]);
+            assert_eq!(cluster.bounds, bounds(&positions, own));
         }
         assert_eq!(next, 8192);
         // Rows would be 64 wide.
@@ -163,17 +160,16 @@ mod tests {
 
     #[test]
     fn few_triangles_stay_as_they_are() {
-        let triangle = Primitive { triangles: vec![[0, 1, 66], [1, 2, 67]], ..grid() };
-        let Clustered { order, clusters } = Clustered::new(&triangle);
+        let Clustered { order, clusters } = Clustered::new(&grid().0, &[[0, 1, 66], [1, 2, 67]]);
         assert_eq!((order, clusters.len(), clusters[0].count), (vec![0, 1], 1, 2));
-        assert!(Clustered::new(&Primitive::default()).clusters.is_empty());
+        assert!(Clustered::new(&[], &[]).clusters.is_empty());
     }
 
     #[test]
     fn triangles_that_lie_on_each_other_stay_together() {
-        let mut twice = grid();
-        twice.triangles = twice.triangles.iter().flat_map(|triangle| [*triangle; 2]).collect();
-        let Clustered { order, clusters } = Clustered::new(&twice);
+        let (positions, triangles) = grid();
+        let twice: Vec<[u32; 3]> = triangles.iter().flat_map(|triangle| [*triangle; 2]).collect();
+        let Clustered { order, clusters } = Clustered::new(&positions, &twice);
         let mut cluster_of = vec![0; order.len()];
         for (number, cluster) in clusters.iter().enumerate() {
             let own = &order[cluster.first as usize..(cluster.first + cluster.count) as usize];

@@ -156,8 +156,9 @@ impl<'a> Lenses<'a> {
         };
         match instance.steps.first() {
             Some(step) => rect.intersection(by_lens(step.rank)),
-            None if item.is_alternate() => {
-                let showing = item.shown_by.iter().filter(|rank| self.reaches(*rank, &around));
+            None if item.is_alternate() || item.is_simplified() => {
+                let showing = if item.is_simplified() { self.plan.simplifying_to(item) } else { item.shown_by };
+                let showing = showing.iter().filter(|rank| self.reaches(*rank, &around));
                 rect.intersection(showing.map(by_lens).reduce(PixelRect::union).unwrap_or(PixelRect::EMPTY))
             }
             None => rect,
@@ -170,10 +171,11 @@ impl<'a> Lenses<'a> {
         if instance.is_moved() {
             return Fate::Asked;
         }
-        let around = padded(&plan.view, bounds);
+        let around = padded(&plan.view, &self.spread(instance, bounds));
         let far = bounds.corners().map(|p| plan.view.depth(p)).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let may_be_plain = !item.translucent && far <= plan.view.far - margin(&plan.view, bounds);
-        if !item.is_alternate() && !altering.iter().any(|rank| self.reaches(rank, &around)) {
+        let is_there_anyway = !item.is_alternate() && !item.is_simplified();
+        if is_there_anyway && !altering.iter().any(|rank| self.reaches(rank, &around)) {
             return if may_be_plain { Fate::Plain } else { Fate::Asked };
         }
         let Some(holding) = self.holding(item, &around) else { return Fate::Asked };
@@ -183,6 +185,12 @@ impl<'a> Lenses<'a> {
             true if may_be_plain && (verdict.stack & self.translucent).is_empty() => Fate::Plain,
             true => Fate::Asked,
         }
+    }
+
+    /// Bounds around all places at which a part of an instance asks who acts.
+    fn spread(&self, instance: &Instance, bounds: &Aabb) -> Aabb {
+        let longest = self.plan.view.ray(0.0, 0.0).direction.length();
+        Aabb { min: bounds.min - instance.spread * longest, max: bounds.max + instance.spread * longest }
     }
 
     /// The lenses that test every fragment, mean something to an item, and hold all of some bounds; `None` where one may

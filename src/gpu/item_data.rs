@@ -19,7 +19,7 @@ pub struct ItemData {
 
 /// Bytes from one record to the next; they start at multiples of 16 bytes.
 pub fn item_stride(words: u32, channels: u32) -> u64 {
-    (size_of::<ItemRecord>() as u64 + 4 * u64::from(5 * words + 2 * channels.max(1))).next_multiple_of(16)
+    (size_of::<ItemRecord>() as u64 + 4 * u64::from(6 * words + 2 * channels.max(1))).next_multiple_of(16)
 }
 
 impl ItemData {
@@ -34,7 +34,9 @@ impl ItemData {
             let record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
-            for mask in [item.scope, item.object, item.shown_by, item.removed_by, item.movers] {
+            let masks =
+                [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
+            for mask in masks {
                 words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
             }
             for name in &plan.channels {
@@ -83,6 +85,8 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         body: NONE,
         caps: NONE,
         node: item.node as u32,
+        ratio: item.ratio,
+        spread: instance.spread as f32,
     }
 }
 

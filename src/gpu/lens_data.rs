@@ -64,6 +64,7 @@ impl LensData {
             first_op: lens.ops.start as u32,
             op_count: lens.ops.len() as u32,
             soft: lens.soft as f32,
+            lod: lens.lod.unwrap_or(1.0),
             ..bytemuck::Zeroable::zeroed()
         };
         self.parts.words.extend(program);
@@ -88,6 +89,7 @@ impl LensData {
             token_count: program.len() as u32,
             first_op: rule.ops.start as u32,
             op_count: rule.ops.len() as u32,
+            lod: rule.lod.unwrap_or(1.0),
             ..bytemuck::Zeroable::zeroed()
         };
         self.parts.words.extend(program);

@@ -32,6 +32,8 @@ pub struct Needs {
     pub forms: [bool; 4],
     /// Some lens moves content.
     pub movers: bool,
+    /// Some lens shows simplified versions.
+    pub versions: bool,
     /// Some lens closes what it cuts.
     pub caps: bool,
     /// Some lens is soft.
@@ -70,7 +72,9 @@ impl Needs {
         let translucent = plan.items.iter().any(|item| item.translucent) || !plan.translucent().is_empty();
         let glass = plan.lenses.iter().any(|lens| lens.glass.is_some());
         let compounds = plan.lenses.iter().any(|lens| !is_one_convex_part(&lens.volume));
-        let takes_away = |item: &Item| !(item.removed_by | item.shown_by | item.movers).is_empty();
+        let takes_away = |item: &Item| {
+            !(item.removed_by | item.shown_by | item.movers | item.simplified_by).is_empty()
+        };
         let taken_away = plan.items.iter().any(takes_away);
         let all_parts: usize = plan.lenses.iter().map(|lens| lens.volume.parts.len()).sum();
         let caps = !plan.bodies.is_empty();
@@ -85,6 +89,7 @@ impl Needs {
             compounds,
             forms: has_forms(plan),
             movers: plan.items.iter().any(|item| !item.movers.is_empty()),
+            versions: plan.items.iter().any(Item::is_simplified),
             caps,
             soft: plan.lenses.iter().any(|lens| lens.soft > 0.0),
             glass,
@@ -116,6 +121,7 @@ impl Needs {
             compounds: false,
             forms: [false; 4],
             movers: false,
+            versions: false,
             caps: false,
             soft: false,
             glass: false,
@@ -156,6 +162,7 @@ impl Needs {
             compounds: false,
             forms: [false; 4],
             movers: false,
+            versions: false,
             soft: false,
             translucent: false,
             channels: 0,
@@ -196,6 +203,7 @@ impl Needs {
             ("CAPSULES", self.forms[2]),
             ("HALF_SPACES", self.forms[3]),
             ("MOVERS", self.movers),
+            ("VERSIONS", self.versions),
             ("CAPS", self.caps),
             ("SOFT", self.soft),
             ("GLASS", self.glass),

@@ -107,6 +107,10 @@ pub struct ItemRecord {
     pub caps: u32,
     /// The number of its node in its file.
     pub node: u32,
+    /// The share of its primitive's triangles: which version it is.
+    pub ratio: f32,
+    /// How far versions of it may lie from each other.
+    pub spread: f32,
 }
 
 /// A lens that moves content, on the way down from a shown point.
@@ -136,6 +140,8 @@ pub struct LensRecord {
     pub first_op: u32,
     pub op_count: u32,
     pub soft: f32,
+    /// The share of the triangles that its `lod` leaves; 1 where it has none.
+    pub lod: f32,
 }
 
 /// One solid of a lens volume.

@@ -28,8 +28,8 @@ pub struct Range {
     pub values: BTreeMap<String, u32>,
 }
 
-/// Model, mesh and primitive.
-type Place = (usize, usize, usize);
+/// Model, mesh, primitive, and the bits of the ratio of its version.
+type Place = (usize, usize, usize, u32);
 
 /// Everything of a scene that no plan changes.
 #[derive(Debug)]
@@ -54,11 +54,11 @@ impl Lists {
     fn add(
         &mut self,
         primitive: &Primitive,
-        Clustered { order, clusters }: Clustered,
+        triangles: &[[u32; 3]],
         wanted: &BTreeMap<String, [f32; 2]>,
     ) -> (Range, Vec<Cluster>) {
-        let numbers = order;
-        let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| primitive.triangles[*number as usize]).collect();
+        let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
+        let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
         let range = Range {
             first_index: self.indices.len() as u32,
@@ -106,7 +106,10 @@ impl SceneData {
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
                 for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    primitives.insert((m, i, p), lists.add(primitive, Clustered::new(primitive), &scene.value_ranges));
+                    for (ratio, triangles) in primitive.versions() {
+                        let added = lists.add(primitive, triangles, &scene.value_ranges);
+                        primitives.insert((m, i, p, ratio.to_bits()), added);
+                    }
                 }
             }
         }
@@ -139,9 +142,9 @@ impl SceneData {
         Ok(Self { positions, indices, bind_group, primitives })
     }
 
-    /// Where an item's primitive lies, and its clusters.
+    /// Where an item's version of its primitive lies, and its clusters.
     pub fn primitive(&self, item: &Item) -> (&Range, &[Cluster]) {
-        let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive)];
+        let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive, item.ratio.to_bits())];
         (range, clusters)
     }
 }

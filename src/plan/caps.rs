@@ -92,8 +92,8 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
 /// The nodes that may be cut, in each of the ways in which all of them is shown; the smallest first: of those that lie in
 /// each other the inner ones.
 pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
-    // By the content, the node and the lenses that move it.
-    let mut ways: BTreeMap<(usize, usize, Vec<usize>), Body> = BTreeMap::new();
+    // By the content, the node, the version and the lenses that move it.
+    let mut ways: BTreeMap<(usize, usize, u32, Vec<usize>), Body> = BTreeMap::new();
     let is_node_of = |a: &Item, b: &Item| (a.content, a.node) == (b.content, b.node);
     let is_cut: Vec<bool> = items
         .chunk_by(is_node_of)
@@ -103,13 +103,13 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
         let item = &items[instance.item];
         let way = instance.steps.iter().map(|step| step.rank).collect();
         let closed = scene.models[item.model].closure(item.mesh).primitives[item.primitive];
-        let body = ways.entry((item.content, item.node, way)).or_insert(Body { members: Vec::new() });
+        let body = ways.entry((item.content, item.node, item.ratio.to_bits(), way)).or_insert(Body { members: Vec::new() });
         body.members.push(Member { instance: number, closed });
     }
-    // What a lens moves only some primitives of is not closed there.
+    // What a lens moves or simplifies only some primitives of is not closed there.
     let is_whole = |body: &Body| {
         let first = &items[instances[body.members[0].instance].item];
-        items.iter().filter(|item| is_node_of(first, item)).count() == body.members.len()
+        items.iter().filter(|item| is_node_of(first, item) && !item.is_simplified()).count() == body.members.len()
     };
     let size = |body: &Body| {
         let first = &items[instances[body.members[0].instance].item];

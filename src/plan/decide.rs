@@ -69,6 +69,8 @@ enum Writes {
     Removal,
     /// Puts other content in place.
     Content,
+    /// Says which version of the content is seen.
+    Version,
     /// Factors of the opacity, or lighting switched off alone: in any order the same comes out.
     Factor,
     /// Material values, as `BASE_COLOR` and its like.
@@ -94,6 +96,7 @@ fn writes(filter: &Filter) -> Writes {
     let bit = |written: bool, bit: u32| if written { bit } else { 0 };
     match filter {
         Filter::Erase { .. } => Writes::Removal,
+        Filter::Lod { .. } => Writes::Version,
         Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => Writes::Content,
         Filter::Opacity { .. } | Filter::Unlit { color: None } => Writes::Factor,
         Filter::Ghost { color: None, .. } => Writes::Factor,
@@ -141,7 +144,10 @@ fn filters_commute(f: &Filter, g: &Filter) -> bool {
     match (writes(f), writes(g)) {
         (Writes::Anything, Writes::Anything | Writes::Factor | Writes::Surface(_) | Writes::Lit)
         | (Writes::Factor | Writes::Surface(_) | Writes::Lit, Writes::Anything) => false,
-        (Writes::Content, Writes::Removal) | (Writes::Removal, Writes::Content) => false,
+        (Writes::Content, Writes::Removal | Writes::Version) | (Writes::Removal | Writes::Version, Writes::Content) => {
+            false
+        }
+        (Writes::Version, Writes::Version) => f == g,
         (Writes::Wires, Writes::Wires) => match (wire_color(f), wire_color(g)) {
             (Some(a), Some(b)) => a == b,
             _ => true,

@@ -7,11 +7,11 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::items::Subject;
+use super::items::largest_scale;
 use super::lenses::Placed;
 use super::{Item, Lens, LensSet};
 use crate::InputError;
-use crate::scene::{Aabb, Scene};
+use crate::scene::{Aabb, Scene, Subject};
 use crate::spec::{At, By, Filter, Pattern};
 
 /// The most ways in which one item may be shown.
@@ -32,6 +32,8 @@ pub struct Instance {
     pub bounds: Aabb,
     /// Through which lenses, the highest first; none in place.
     pub steps: Vec<Step>,
+    /// How far the versions of the item may lie from each other where it is shown, scene units.
+    pub spread: f64,
 }
 
 /// A mover on the way down from a shown point.
@@ -44,8 +46,8 @@ pub struct Step {
 }
 
 impl Instance {
-    fn in_place(item: usize, bounds: Aabb) -> Self {
-        Self { item, shown_from_world: DAffine3::IDENTITY, bounds, steps: Vec::new() }
+    fn in_place(number: usize, item: &Item, bounds: Aabb) -> Self {
+        Self { item: number, shown_from_world: DAffine3::IDENTITY, bounds, steps: Vec::new(), spread: item.spread }
     }
 
     pub fn is_moved(&self) -> bool {
@@ -80,6 +82,7 @@ impl Instance {
             shown_from_world: *movement * self.shown_from_world,
             bounds,
             steps: std::iter::once(first).chain(rest).collect(),
+            spread: self.spread * largest_scale(movement),
         })
     }
 }
@@ -93,10 +96,10 @@ fn padded(bounds: Aabb) -> Aabb {
 /// Every item in place, in their order, then all that movers may show of them.
 pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<Vec<Instance>, InputError> {
     let mut instances: Vec<Instance> =
-        items.iter().enumerate().map(|(index, item)| Instance::in_place(index, item.bounds)).collect();
+        items.iter().enumerate().map(|(index, item)| Instance::in_place(index, item, item.bounds)).collect();
     let movers: LensSet = (0..lenses.len()).filter(|rank| lenses[*rank].moves).collect();
     for (index, item) in items.iter().enumerate() {
-        let mut ways = vec![Instance::in_place(index, moved_bounds(item, scene))];
+        let mut ways = vec![Instance::in_place(index, item, moved_bounds(item, scene))];
         for rank in item.moved_by(lenses).iter() {
             let reach = match lenses[rank].by {
                 By::Pixel => lenses[rank].volume.bounds(),

@@ -1,12 +1,12 @@
 //! What can be drawn, and what each lens means to it.
 
 use super::{Lens, LensSet, Rule, instances};
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use crate::InputError;
 use crate::pixel::FIRST_CAP;
-use crate::scene::{Aabb, Model, Scene};
-use crate::spec::{At, By, Cap, Filter, LensSpec, Matches, Pattern, ShowWhat, Spec};
+use crate::scene::{Aabb, Model, Primitive, Scene, Subject};
+use crate::spec::{At, By, Cap, Filter, Pattern, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Content {
     pub nodes: Option<Vec<Pattern>>,
 }
 
-/// One primitive of one node of one content.
+/// One primitive of one node of one content, or a simplified version of it.
 #[derive(Debug, Clone)]
 pub struct Item {
     pub content: usize,
@@ -26,6 +26,8 @@ pub struct Item {
     pub node: usize,
     pub mesh: usize,
     pub primitive: usize,
+    /// The share of its triangles: which version of the primitive it is; 1: all of it.
+    pub ratio: f32,
     /// Into [`Scene::materials`].
     pub material: usize,
     /// The number of its first triangle among all items': the key that decides ties.
@@ -47,6 +49,10 @@ pub struct Item {
     pub removed_by: LensSet,
     /// Lenses that move it where they act.
     pub movers: LensSet,
+    /// Lenses whose `lod` says which version is seen; the highest that acts decides.
+    pub simplified_by: LensSet,
+    /// How far its versions may lie from each other, scene units; 0 where there is but one.
+    pub spread: f64,
     /// What the lenses and rules that erase it close it with, by rising rank; none where its node is not closed.
     pub caps: Vec<(usize, Cap)>,
 }
@@ -54,6 +60,20 @@ pub struct Item {
 impl Item {
     pub fn is_alternate(&self) -> bool {
         self.content != 0
+    }
+
+    /// Whether it has fewer triangles than the primitive.
+    pub fn is_simplified(&self) -> bool {
+        self.ratio < 1.0
+    }
+
+    /// Corners of its triangles: vertices of its primitive.
+    pub fn triangle_list<'a>(&self, scene: &'a Scene) -> &'a [[u32; 3]] {
+        self.primitive_of(scene).version(self.ratio).unwrap_or_default()
+    }
+
+    pub fn primitive_of<'a>(&self, scene: &'a Scene) -> &'a Primitive {
+        &scene.models[self.model].meshes[self.mesh].primitives[self.primitive]
     }
 
     /// The lenses that may move it to be seen elsewhere: an alternate only those from the first that shows it upwards.
@@ -104,6 +124,7 @@ pub(super) fn collect(
                     node,
                     mesh,
                     primitive: index,
+                    ratio: 1.0,
                     material,
                     first_triangle: first_triangle as u32,
                     triangles: primitive.triangles.len() as u32,
@@ -115,12 +136,14 @@ pub(super) fn collect(
                     shown_by: LensSet::EMPTY,
                     removed_by: LensSet::EMPTY,
                     movers: LensSet::EMPTY,
+                    simplified_by: LensSet::EMPTY,
+                    spread: 0.0,
                     caps: Vec::new(),
                 };
                 let subject = item.subject(scene);
                 for (rank, lens) in lenses.iter().enumerate() {
                     let lens_spec = &spec.lenses[order[rank]];
-                    if in_scope(lens_spec, &subject) {
+                    if subject.is_in_scope_of(lens_spec) {
                         item.scope.insert(rank);
                     }
                     relate(&mut item, rank, &lens.filters, &subject, &contents, scene);
@@ -131,8 +154,11 @@ pub(super) fn collect(
                 for (number, rule) in rules.iter().enumerate() {
                     relate(&mut item, lenses.len() + number, &rule.filters, &subject, &contents, scene);
                 }
-                first_triangle += u64::from(item.triangles);
-                items.push(item);
+                for version in versions(item, lenses, rules, scene)? {
+                    let item = Item { first_triangle: first_triangle as u32, ..version };
+                    first_triangle += u64::from(item.triangles);
+                    items.push(item);
+                }
             }
         }
     }
@@ -146,14 +172,49 @@ pub(super) fn collect(
     Ok((contents, items))
 }
 
-fn in_scope(lens: &LensSpec, subject: &Subject) -> bool {
-    (lens.only.is_empty() || subject.is_in(&lens.only)) && !subject.is_in(&lens.except)
+/// Of a meshoptimizer error, which is less than how far apart surfaces may lie on a slanting ray.
+const SPREAD: f64 = 4.0;
+
+/// An item, and the simplified versions of it that lenses and rules may show, the finest first.
+fn versions(item: Item, lenses: &[Lens], rules: &[Rule], scene: &Scene) -> Result<Vec<Item>, InputError> {
+    let ratio = |rank: usize| match lenses.get(rank) {
+        // One that takes whole objects never acts on the others.
+        Some(lens) if lens.by == By::Object && !item.object.contains(rank) => None,
+        Some(lens) => lens.lod,
+        None => rules[rank - lenses.len()].lod,
+    };
+    let mut ratios: Vec<f32> = item.simplified_by.iter().filter_map(ratio).filter(|ratio| *ratio < 1.0).collect();
+    ratios.sort_by(|a, b| b.total_cmp(a));
+    ratios.dedup();
+    let (mut simplified, mut error) = (Vec::new(), 0.0f32);
+    for ratio in ratios {
+        let versions = &item.primitive_of(scene).simplified;
+        let Some(version) = versions.iter().find(|version| version.ratio == ratio) else {
+            return Err(InputError::new(format!("the scene has not been prepared for `lod` with ratio = {ratio}"))
+                .help("`Scene::prepare_filters` simplifies its meshes"));
+        };
+        error = error.max(version.error);
+        simplified.push(Item { ratio, triangles: version.triangles.len() as u32, ..item.clone() });
+    }
+    let world = scene.models[item.model].nodes[item.node].world_from_local;
+    let spread = SPREAD * f64::from(error) * largest_scale(&world);
+    let versions = std::iter::once(item).chain(simplified.into_iter().filter(|item| item.triangles > 0));
+    Ok(versions.map(|item| Item { spread, ..item }).collect())
+}
+
+/// How many times longer an affine map makes the longest of the axes.
+pub(super) fn largest_scale(map: &DAffine3) -> f64 {
+    let axes = map.matrix3;
+    [axes.x_axis, axes.y_axis, axes.z_axis].into_iter().map(DVec3::length).fold(0.0, f64::max)
 }
 
 /// Sets what the filters of one lens or rule mean to one item.
 fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, contents: &[Content], scene: &Scene) {
     if instances::moves(filters, subject) {
         item.movers.insert(rank);
+    }
+    if lod(filters.iter()).is_some() {
+        item.simplified_by.insert(rank);
     }
     let last_show = filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
     // The cap of the first filter that erases it.
@@ -238,22 +299,4 @@ fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: us
         None => index != 0 || !spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value)),
     };
     wanted && model.nodes[node].drawn
-}
-
-/// What name patterns are held against.
-pub(super) struct Subject<'a> {
-    model: &'a Model,
-    node: usize,
-    material: &'a str,
-}
-
-impl Subject<'_> {
-    fn is_in(&self, matches: &Matches) -> bool {
-        self.is_any(&matches.nodes, &matches.materials)
-    }
-
-    pub(super) fn is_any(&self, nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> bool {
-        nodes.iter().any(|p| self.model.node_matches(self.node, &p.value))
-            || materials.iter().any(|p| p.value.matches(self.material))
-    }
 }

@@ -9,7 +9,7 @@ use super::{LensSet, MAX_LENSES, Op, PriorityGraph, Rank, filter_name};
 use crate::InputError;
 use crate::lens::{MAX_PARTS, PixelRect, Placement, Volume, build_volume};
 use crate::scene::Scene;
-use crate::spec::{Attach, By, Filter, Glass, LensSpec, OverlapMode, Spec};
+use crate::spec::{Attach, By, Filter, Glass, LensSpec, OverlapMode, Spec, lod};
 use crate::view::{Projection, View};
 
 /// A lens that takes part, at its place in the total order.
@@ -35,6 +35,8 @@ pub struct Lens {
     pub translucent: bool,
     /// Whether some filter moves content.
     pub moves: bool,
+    /// The share of the triangles that its `lod` leaves.
+    pub lod: Option<f32>,
     /// Width over which the appearance filters fade in from the boundary, scene units; 0: a sharp one.
     pub soft: f64,
     pub glass: Option<GlassRecord>,
@@ -162,6 +164,7 @@ pub(super) fn rank_lenses(
             overrides,
             translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             moves: filters.iter().any(Filter::moves),
+            lod: lod(filters.iter()),
             soft: lens.soft,
             filters,
             ops: own,

@@ -138,9 +138,11 @@ impl<'a> Ops<'a> {
     fn record(&mut self, filter: &Filter) -> Result<Option<Op>, InputError> {
         let one = |a: f32| [a, 0.0, 0.0, 0.0];
         Ok(Some(match filter {
-            Filter::Erase { .. } | Filter::Show(_) | Filter::Magnify { .. } | Filter::Displace { .. } => {
-                return Ok(None);
-            }
+            Filter::Erase { .. }
+            | Filter::Show(_)
+            | Filter::Lod { .. }
+            | Filter::Magnify { .. }
+            | Filter::Displace { .. } => return Ok(None),
             Filter::Wgsl { file, params } => self.custom(file, params)?,
             Filter::Opacity { value } => Op::new(wgsl::OP_OPACITY, one(*value), NONE),
             Filter::Ghost { strength, color } => Op::new(wgsl::OP_GHOST, NONE, one(*strength)).colored(*color),
@@ -304,6 +306,7 @@ pub fn filter_name(filter: &Filter) -> &'static str {
         Filter::Points { .. } => "points",
         Filter::Erase { .. } => "erase",
         Filter::Show(_) => "show",
+        Filter::Lod { .. } => "lod",
         Filter::Magnify { .. } => "magnify",
         Filter::Displace { .. } => "displace",
         Filter::Opacity { .. } => "opacity",

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::op::Ops;
 use super::{Item, Lens, LensSet, Op, Plan, filter_name};
 use crate::InputError;
-use crate::spec::{Condition, Filter, Spec};
+use crate::spec::{Condition, Filter, Spec, lod};
 
 /// A rule. In stacks it stands at the rank [`Plan::rule_rank`], behind all lenses.
 #[derive(Debug, Clone)]
@@ -16,6 +16,8 @@ pub struct Rule {
     pub ops: Range<usize>,
     /// Whether its filters may make a fragment less than opaque.
     pub translucent: bool,
+    /// The share of the triangles that its `lod` leaves.
+    pub lod: Option<f32>,
 }
 
 /// The condition of a rule over the lenses that contain a point.
@@ -60,6 +62,7 @@ pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Result<Vec
             when: Test::new(&rule.when.value, lenses),
             translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             ops: own,
+            lod: lod(filters.iter()),
             filters,
         })
     };
@@ -105,6 +108,19 @@ impl Plan {
         lenses.chain(rules.map(|rule| self.rule_rank(rule))).collect()
     }
 
+    /// The share of the triangles that a lens or rule of a stack leaves of what its `lod` acts on.
+    pub fn lod_of(&self, rank: usize) -> Option<f32> {
+        match self.rule_of(rank) {
+            Some(rule) => self.rules[rule].lod,
+            None => self.lenses[rank].lod,
+        }
+    }
+
+    /// The lenses and rules that let a simplified version be seen.
+    pub fn simplifying_to(&self, item: &Item) -> LensSet {
+        item.simplified_by.iter().filter(|rank| self.lod_of(*rank) == Some(item.ratio)).collect()
+    }
+
     /// The ranks that stand for rules.
     pub fn rule_ranks(&self) -> LensSet {
         LensSet::below(self.lenses.len() + self.rules.len()).minus(LensSet::below(self.lenses.len()))
@@ -112,6 +128,6 @@ impl Plan {
 
     /// The lenses and rules that may take fragments of an item in place away, or make them less than opaque.
     pub fn altering(&self, item: &Item) -> LensSet {
-        item.removed_by | item.movers | (self.translucent() & (item.scope | self.rule_ranks()))
+        item.removed_by | item.movers | item.simplified_by | (self.translucent() & (item.scope | self.rule_ranks()))
     }
 }

@@ -3,7 +3,7 @@
 use super::{Instance, Item, Lens, LensSet, Plan};
 
 /// What the walk down the order found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// The lenses around the fragment that apply to it, hidden ones included: S. Below a lens that moves content,
     /// those around the moved point.
@@ -12,11 +12,30 @@ pub struct Verdict {
     pub stack: LensSet,
     /// The lenses that move content take a fragment at this point just where the instance has it from.
     pub here: bool,
-    /// It is seen: neither erased nor replaced nor moved elsewhere, and, for an alternate, shown.
+    /// It is there, in one version or another: neither erased nor replaced nor moved elsewhere, and, for an alternate,
+    /// shown.
+    pub there: bool,
+    /// The share of the triangles in the version that is seen.
+    pub ratio: f32,
+    /// It is there, and in this version.
     pub displayed: bool,
     /// Who takes it away from here: what erases it, shows something else, or moves it elsewhere. An alternate that
     /// no lens shows is not taken away, it is not there.
     pub removed_by: LensSet,
+    /// Who decides which version is seen, if some `lod` does.
+    pub simplified_by: Option<usize>,
+}
+
+impl Verdict {
+    /// Who takes an item away, as accounts tell it: who removes it, or lets a simplified version be seen in its place. A
+    /// simplified version that is not seen is not taken away, it is not there.
+    pub fn taken_by(&self, item: &Item) -> LensSet {
+        match self.simplified_by.filter(|_| self.ratio != item.ratio) {
+            _ if item.is_simplified() && self.ratio != item.ratio => LensSet::EMPTY,
+            Some(rank) => self.removed_by | LensSet::only(rank),
+            None => self.removed_by,
+        }
+    }
 }
 
 impl Plan {
@@ -30,10 +49,19 @@ impl Plan {
         let here = around(0);
         let containing = self.applying(item, here) & item.scope;
         if let Some(rule) = self.rule_for(containing) {
-            return rule_verdict(item, instance, self.rule_rank(rule), containing);
+            return self.rule_verdict(item, instance, self.rule_rank(rule), containing);
         }
         let nothing = LensSet::EMPTY;
-        let mut verdict = Verdict { set: nothing, stack: nothing, here: true, displayed: true, removed_by: nothing };
+        let mut verdict = Verdict {
+            set: nothing,
+            stack: nothing,
+            here: true,
+            there: true,
+            ratio: 1.0,
+            displayed: true,
+            removed_by: nothing,
+            simplified_by: None,
+        };
         let mut hidden = LensSet::EMPTY;
         // Whether the lens that brought this content in has been passed.
         let mut shown = false;
@@ -52,6 +80,10 @@ impl Plan {
             }
             verdict.stack.insert(rank);
             hidden = hidden | self.lenses[rank].hides;
+            if !shown && verdict.simplified_by.is_none() && item.simplified_by.contains(rank) {
+                verdict.simplified_by = Some(rank);
+                verdict.ratio = self.lod_of(rank).unwrap_or(1.0);
+            }
             if !shown && item.movers.contains(rank) {
                 if instance.steps.get(steps).is_some_and(|step| step.rank == rank) {
                     steps += 1;
@@ -68,24 +100,70 @@ impl Plan {
             }
         }
         verdict.here &= steps == instance.steps.len();
-        verdict.displayed = verdict.here && verdict.removed_by.is_empty();
+        verdict.there = verdict.here && verdict.removed_by.is_empty();
         if item.is_alternate() && !shown {
-            (verdict.displayed, verdict.removed_by) = (false, LensSet::EMPTY);
+            (verdict.there, verdict.removed_by) = (false, LensSet::EMPTY);
+        }
+        verdict.displayed = verdict.there && verdict.ratio == item.ratio;
+        verdict
+    }
+
+    /// As [`Plan::walk`] at a depth of a ray. Where, along the ray, another version of an item is seen close by, all of it
+    /// is seen, too: simplified surfaces do not quite meet those that they stand for, and no gap may open between them.
+    ///
+    /// `around(n, depth)`: as there.
+    pub fn verdict(
+        &self,
+        instance: &Instance,
+        depth: f64,
+        mut around: impl FnMut(usize, f64) -> LensSet,
+    ) -> Verdict {
+        let mut verdict = self.walk(instance, |steps| around(steps, depth));
+        if verdict.there && !verdict.displayed && !self.items[instance.item].is_simplified() {
+            let close_by = [depth - instance.spread, depth + instance.spread];
+            verdict.displayed = close_by.into_iter().any(|depth| {
+                let depth = depth.clamp(self.view.near, self.view.far);
+                let other = self.walk(instance, |steps| around(steps, depth));
+                other.there && other.ratio != verdict.ratio
+            });
         }
         verdict
     }
 
-    /// Those of a stack that take an instance away from a point where they act, as [`Verdict::removed_by`] has it; `None`
+    /// A rule's filters are the whole stack, on the plain scene: what lenses move or show is not there.
+    fn rule_verdict(&self, item: &Item, instance: &Instance, rank: usize, set: LensSet) -> Verdict {
+        let shown = item.shown_by.contains(rank);
+        let gone = !shown && item.removed_by.contains(rank);
+        let there = !instance.is_moved() && (shown || (!gone && !item.is_alternate()));
+        let simplified_by = item.simplified_by.contains(rank).then_some(rank);
+        let ratio = simplified_by.and_then(|rank| self.lod_of(rank)).unwrap_or(1.0);
+        Verdict {
+            set,
+            stack: LensSet::only(rank),
+            here: !instance.is_moved(),
+            there,
+            ratio,
+            displayed: there && ratio == item.ratio,
+            removed_by: if gone && !item.is_alternate() { LensSet::only(rank) } else { LensSet::EMPTY },
+            simplified_by,
+        }
+    }
+
+    /// Those of a stack that take an instance away from a point where they act, as [`Verdict::taken_by`] has it; `None`
     /// where that is not to be told: an instance that lenses move is told of where it is seen, not where it might have
     /// been, and what no lens shows is not there.
     #[cfg(feature = "gpu")]
     pub(crate) fn removers(&self, instance: &Instance, stack: LensSet) -> Option<LensSet> {
         let item = &self.items[instance.item];
         let (mut removers, mut shown, mut steps) = (LensSet::EMPTY, false, 0);
+        let mut simplified_by = None;
         let mut rest = stack;
         while let Some(rank) = rest.top() {
             rest.remove(rank);
             let is_rule = self.rule_of(rank).is_some();
+            if !shown && simplified_by.is_none() && item.simplified_by.contains(rank) {
+                simplified_by = Some(rank);
+            }
             if !is_rule && !shown && item.movers.contains(rank) {
                 if instance.steps.get(steps).is_some_and(|step| step.rank == rank) {
                     steps += 1;
@@ -101,7 +179,11 @@ impl Plan {
                 removers.insert(rank);
             }
         }
-        let told = steps == instance.steps.len() && (shown || !item.is_alternate()) && !removers.is_empty();
+        let ratio = simplified_by.and_then(|rank| self.lod_of(rank)).unwrap_or(1.0);
+        let is_seen_otherwise = ratio != item.ratio;
+        removers = removers | simplified_by.filter(|_| is_seen_otherwise).map_or(LensSet::EMPTY, LensSet::only);
+        let was_there = (shown || !item.is_alternate()) && !(is_seen_otherwise && item.is_simplified());
+        let told = steps == instance.steps.len() && was_there && !removers.is_empty();
         told.then_some(removers)
     }
 
@@ -121,19 +203,6 @@ impl Plan {
             Some(rule) => LensSet::only(self.rule_rank(rule)),
             None => survivors(&self.lenses, set),
         }
-    }
-}
-
-/// A rule's filters are the whole stack, on the plain scene: what lenses move or show is not there.
-fn rule_verdict(item: &Item, instance: &Instance, rank: usize, set: LensSet) -> Verdict {
-    let shown = item.shown_by.contains(rank);
-    let gone = !shown && item.removed_by.contains(rank);
-    Verdict {
-        set,
-        stack: LensSet::only(rank),
-        here: !instance.is_moved(),
-        displayed: !instance.is_moved() && (shown || (!gone && !item.is_alternate())),
-        removed_by: if gone && !item.is_alternate() { LensSet::only(rank) } else { LensSet::EMPTY },
     }
 }
 

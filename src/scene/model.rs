@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
-use super::{Animation, BoundsCache, ClosureCache, Transform};
+use super::{Animation, BoundsCache, ClosureCache, Simplified, Transform};
 
 /// One glTF file, with one of its scenes chosen. Indices are those of the file.
 #[derive(Debug, Clone, Default)]
@@ -74,6 +74,8 @@ pub struct Primitive {
     /// and [`super::CURVATURE`] where it has been asked for.
     pub values: BTreeMap<String, Vec<f32>>,
     pub triangles: Vec<[u32; 3]>,
+    /// Those that some `lod` has asked for, one a ratio.
+    pub simplified: Vec<Simplified>,
     /// Into [`Model::materials`].
     pub material: usize,
 }

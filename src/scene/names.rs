@@ -1,7 +1,31 @@
 //! Nodes by their names.
 
 use super::Model;
-use crate::spec::Pattern;
+use crate::spec::{At, LensSpec, Matches, Pattern};
+
+/// What name patterns are held against.
+pub(crate) struct Subject<'a> {
+    pub model: &'a Model,
+    pub node: usize,
+    /// The name of its material.
+    pub material: &'a str,
+}
+
+impl Subject<'_> {
+    /// Whether a lens's `only` and `except` let it act here.
+    pub fn is_in_scope_of(&self, lens: &LensSpec) -> bool {
+        (lens.only.is_empty() || self.is_in(&lens.only)) && !self.is_in(&lens.except)
+    }
+
+    fn is_in(&self, matches: &Matches) -> bool {
+        self.is_any(&matches.nodes, &matches.materials)
+    }
+
+    pub fn is_any(&self, nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> bool {
+        nodes.iter().any(|p| self.model.node_matches(self.node, &p.value))
+            || materials.iter().any(|p| p.value.matches(self.material))
+    }
+}
 
 impl Model {
     /// The one node of a name, or what is wrong with the name and what to do about it.

@@ -101,6 +101,7 @@ impl Scene {
                 _ => {}
             }
         }
+        self.simplify(spec);
         Ok(())
     }
 

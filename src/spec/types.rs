@@ -254,6 +254,10 @@ pub enum Filter {
         cap: Option<Cap>,
     },
     Show(ShowWhat),
+    /// A simplified version: this share of the triangles, above 0.
+    Lod {
+        ratio: f32,
+    },
     /// Enlarges about `center` (in the shape's space; `None`: the lens's centre).
     Magnify {
         factor: f64,
@@ -380,6 +384,16 @@ impl Filter {
     /// Whether it moves content (SEMANTICS 5.2).
     pub fn moves(&self) -> bool {
         matches!(self, Filter::Magnify { .. } | Filter::Displace { .. })
+    }
+}
+
+/// The share of the triangles that a list of filters leaves: its last `lod` says so. One that stands before a `show`
+/// simplifies what that replaces.
+pub fn lod<'a>(filters: impl DoubleEndedIterator<Item = &'a Filter>) -> Option<f32> {
+    let decides = |filter: &&Filter| matches!(filter, Filter::Lod { .. } | Filter::Show(_));
+    match filters.rev().find(decides)? {
+        Filter::Lod { ratio } => Some(*ratio),
+        _ => None,
     }
 }
 

@@ -28,7 +28,8 @@ impl Tracer<'_> {
             let verdict = self.verdict(&ray, triangle.instance, depth, &layers, &mut moved);
             // What is moved is told of where it stands and where it is seen, not where it might have been.
             let told = verdict.here || !self.instance(triangle.instance).is_moved();
-            if told && !verdict.removed_by.is_empty() {
+            let by = verdict.taken_by(self.item(triangle.instance));
+            if told && !verdict.displayed && !by.is_empty() {
                 let fragment = Fragment {
                     instance: triangle.instance,
                     triangle: triangle.index,
@@ -36,7 +37,7 @@ impl Tracer<'_> {
                     weights: hit.weights,
                     region: Region { set: verdict.set, stack: verdict.stack },
                 };
-                removed.push(Removed { fragment, by: verdict.removed_by });
+                removed.push(Removed { fragment, by });
             }
         }
         removed.sort_unstable_by(|a, b| {

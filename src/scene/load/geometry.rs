@@ -94,6 +94,7 @@ fn primitive(
         positions,
         normals,
         triangles,
+        simplified: Vec::new(),
     }))
 }
 

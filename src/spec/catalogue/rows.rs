@@ -25,11 +25,6 @@ const fn built(name: &'static str, kind: FilterKind, help: &'static str, params:
     FilterRow { name, kind, moves: false, built: true, help, params }
 }
 
-/// A filter that waits for its work.
-const fn planned(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
-    FilterRow { built: false, ..built(name, kind, help, params) }
-}
-
 const fn mover(row: FilterRow) -> FilterRow {
     FilterRow { moves: true, ..row }
 }
@@ -40,7 +35,7 @@ pub const FILTERS: &[FilterRow] = &[
     built("points", Coverage, "draws vertices as discs", POINTS),
     built("erase", Content, "removes what it matches", ERASE),
     built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
-    planned("lod", Content, "shows a simplified version", LOD),
+    built("lod", Content, "shows a simplified version", LOD),
     mover(built("magnify", Content, "enlarges what is inside", MAGNIFY)),
     mover(built("displace", Content, "moves matched nodes", DISPLACE)),
     built("opacity", Surface, "multiplies the opacity", OPACITY),
@@ -82,7 +77,7 @@ const SHOW: &[Param] = &[
     param("alternate", Text, Meaning("give this or nodes"), "a name under [scene.alternates]"),
     param("nodes", Patterns, Meaning("give this or alternate"), "exactly these nodes, hidden ones too"),
 ];
-const LOD: &[Param] = &[param("ratio", UNIT, Num(0.1), "of triangles kept")];
+const LOD: &[Param] = &[param("ratio", Number(NumberRange::closed(0.001, 1.0)), Num(0.1), "of triangles kept")];
 const MAGNIFY: &[Param] = &[
     param("factor", Number(NumberRange::POSITIVE), Num(2.0), "how many times larger"),
     param("center", Vector, Meaning("the lens's centre"), "fixed point, in the shape's space"),

@@ -306,6 +306,7 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
             cap: params.cap("cap"),
         }),
         "show" => Some(Filter::Show(show(params)?)),
+        "lod" => params.number("ratio").map(|ratio| Filter::Lod { ratio }),
         "magnify" => params.double("factor").map(|factor| Filter::Magnify { factor, center: params.vector("center") }),
         "displace" => Some(displace(params)),
         "opacity" => params.number("value").map(|value| Filter::Opacity { value }),
