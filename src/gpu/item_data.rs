@@ -34,8 +34,7 @@ impl ItemData {
             let record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
-            let masks =
-                [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
+            let masks = [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
             for mask in masks {
                 words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
             }

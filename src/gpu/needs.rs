@@ -72,9 +72,7 @@ impl Needs {
         let translucent = plan.items.iter().any(|item| item.translucent) || !plan.translucent().is_empty();
         let glass = plan.lenses.iter().any(|lens| lens.glass.is_some());
         let compounds = plan.lenses.iter().any(|lens| !is_one_convex_part(&lens.volume));
-        let takes_away = |item: &Item| {
-            !(item.removed_by | item.shown_by | item.movers | item.simplified_by).is_empty()
-        };
+        let takes_away = |item: &Item| !(item.removed_by | item.shown_by | item.movers | item.simplified_by).is_empty();
         let taken_away = plan.items.iter().any(takes_away);
         let all_parts: usize = plan.lenses.iter().map(|lens| lens.volume.parts.len()).sum();
         let caps = !plan.bodies.is_empty();

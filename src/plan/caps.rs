@@ -103,7 +103,8 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
         let item = &items[instance.item];
         let way = instance.steps.iter().map(|step| step.rank).collect();
         let closed = scene.models[item.model].closure(item.mesh).primitives[item.primitive];
-        let body = ways.entry((item.content, item.node, item.ratio.to_bits(), way)).or_insert(Body { members: Vec::new() });
+        let body =
+            ways.entry((item.content, item.node, item.ratio.to_bits(), way)).or_insert(Body { members: Vec::new() });
         body.members.push(Member { instance: number, closed });
     }
     // What a lens moves or simplifies only some primitives of is not closed there.

@@ -154,6 +154,8 @@ pub(super) fn collect(
                 for (number, rule) in rules.iter().enumerate() {
                     relate(&mut item, lenses.len() + number, &rule.filters, &subject, &contents, scene);
                 }
+                item.simplified_by =
+                    item.simplified_by.minus(LensSet::below(lenses.len()).minus(item.scope | item.shown_by));
                 for version in versions(item, lenses, rules, scene)? {
                     let item = Item { first_triangle: first_triangle as u32, ..version };
                     first_triangle += u64::from(item.triangles);

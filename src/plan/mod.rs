@@ -112,6 +112,7 @@ impl Plan {
         let (contents, mut items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let mut warnings = warnings::collect(spec, scene);
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
+        warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
             samples: spec.image.samples,

@@ -112,12 +112,7 @@ impl Plan {
     /// is seen, too: simplified surfaces do not quite meet those that they stand for, and no gap may open between them.
     ///
     /// `around(n, depth)`: as there.
-    pub fn verdict(
-        &self,
-        instance: &Instance,
-        depth: f64,
-        mut around: impl FnMut(usize, f64) -> LensSet,
-    ) -> Verdict {
+    pub fn verdict(&self, instance: &Instance, depth: f64, mut around: impl FnMut(usize, f64) -> LensSet) -> Verdict {
         let mut verdict = self.walk(instance, |steps| around(steps, depth));
         if verdict.there && !verdict.displayed && !self.items[instance.item].is_simplified() {
             let close_by = [depth - instance.spread, depth + instance.spread];

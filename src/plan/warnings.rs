@@ -1,5 +1,6 @@
 //! Patterns that match nothing, and what the models left out.
 
+use super::{Item, Lens, Rule};
 use crate::scene::{Model, Scene};
 use crate::spec::{At, Filter, Matches, Pattern, Spec};
 
@@ -37,6 +38,37 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// So many times what a `lod` asks for is worth a word.
+const MANY: f64 = 1.5;
+
+/// Lenses and rules whose `lod` leaves more than it was asked for.
+pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Item]) -> Vec<String> {
+    let of_lenses =
+        lenses.iter().map(|lens| (lens.lod, format!("lens `{}`", lens.name), &spec.lenses[lens.index].filters));
+    let of_rules = rules.iter().zip(&spec.overlaps).enumerate();
+    let of_rules = of_rules.map(|(n, (rule, overlap))| (rule.lod, format!("overlap rule {n}"), &overlap.filters));
+    let lods = of_lenses.chain(of_rules).enumerate().filter_map(|(rank, (ratio, name, filters))| {
+        let ratio = ratio.filter(|ratio| *ratio < 1.0)?;
+        let all = |ratio: f32| -> f64 {
+            let own = items.iter().filter(|item| item.simplified_by.contains(rank) && item.ratio == ratio);
+            own.map(|item| f64::from(item.triangles)).sum()
+        };
+        let (left, all) = (all(ratio), all(1.0));
+        if left <= MANY * f64::from(ratio) * all {
+            return None;
+        }
+        let filter = filters.iter().find(|filter| matches!(filter.value, Filter::Lod { .. }))?;
+        Some(format!(
+            "{}:{}: `lod` of {name} leaves {:.1} % of the triangles, not {:.1} %: fewer would move borders, or surfaces too far",
+            spec.source.name,
+            spec.source.line(filter.span.start),
+            100.0 * left / all,
+            100.0 * ratio,
+        ))
+    });
+    lods.collect()
 }
 
 fn moves(scene: &Scene) -> bool {

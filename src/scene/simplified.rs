@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use meshopt::{SimplifyOptions, simplify_decoder, simplify_scale_decoder};
 use rayon::prelude::*;
 
+use super::vertex_values::places;
 use super::{Model, Primitive, Scene, Subject};
-use crate::spec::{LensSpec, Spec, lod};
+use crate::spec::{At, Filter, LensSpec, Spec, lod};
 
 /// A primitive with fewer triangles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simplified {
-    /// The share of the triangles that was asked for; below 1.
+    /// The share of the triangles that was asked for, below 1; more are left where fewer would be far off.
     pub ratio: f32,
     /// Corners are vertices of the primitive; borders are where they were.
     pub triangles: Vec<[u32; 3]>,
@@ -22,27 +23,52 @@ pub struct Simplified {
 /// So much more than what was asked for may be left before edges where vertices part (in normals, in texture coordinates)
 /// are given up, too.
 const MOST_LEFT: f32 = 1.5;
-/// What is left of a closed mesh at the least.
-const FEWEST: usize = 4;
+/// How far a surface may move, as a share of its mesh's longest side: a box stays a box.
+const LARGEST_ERROR: f32 = 0.05;
 
 impl Simplified {
-    /// Collapses edges in the order of their quadric errors (Garland and Heckbert 1997, as meshoptimizer has it). Borders
-    /// stay, so that primitives which meet there go on to.
+    /// Collapses edges in the order of their quadric errors (Garland and Heckbert 1997, as meshoptimizer has it), until the
+    /// ratio is reached or the error too large. Borders stay, so that primitives which meet there go on to.
     fn new(primitive: &Primitive, ratio: f32) -> Self {
         let corners = primitive.triangles.as_flattened();
         let positions: Vec<[f32; 3]> = primitive.positions.iter().map(|p| p.to_array()).collect();
-        let wanted = ((primitive.triangles.len() as f32 * ratio) as usize).max(FEWEST);
+        let wanted = (primitive.triangles.len() as f32 * ratio) as usize;
         let attempt = |options: SimplifyOptions| {
             let mut error = 0.0;
-            let left = simplify_decoder(corners, &positions, 3 * wanted, 1.0, options, Some(&mut error));
+            let left = simplify_decoder(corners, &positions, 3 * wanted, LARGEST_ERROR, options, Some(&mut error));
             (left, error)
         };
         let (mut left, mut error) = attempt(SimplifyOptions::LockBorder);
         if left.len() as f32 > MOST_LEFT * 3.0 * wanted as f32 {
             (left, error) = attempt(SimplifyOptions::LockBorder | SimplifyOptions::Permissive);
         }
-        let triangles = left.as_chunks().0.to_vec();
+        let mut triangles = left.as_chunks().0.to_vec();
+        fit_normals(primitive, &mut triangles);
         Self { ratio, triangles, error: error * simplify_scale_decoder(&positions) }
+    }
+}
+
+/// Where the normal of a corner is farther than this from its triangle's, by its cosine, another vertex may fit better.
+const FITS: f32 = 0.5;
+
+/// Gives corners, of the vertices at their place, the one whose normal is nearest the triangle's: where edges are sharp, each
+/// side has vertices of its own, and a collapse may have taken the other side's.
+fn fit_normals(primitive: &Primitive, triangles: &mut [[u32; 3]]) {
+    let Some(normals) = &primitive.normals else { return };
+    let place = places(primitive);
+    let mut at_place = vec![Vec::new(); place.iter().max().map_or(0, |last| last + 1)];
+    (0u32..).zip(&place).for_each(|(vertex, place)| at_place[*place].push(vertex));
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| primitive.positions[corner as usize]);
+        let across = (b - a).cross(c - a).normalize_or_zero();
+        for corner in corners {
+            let fit = |vertex: &u32| normals[*vertex as usize].dot(across);
+            if fit(corner) < FITS
+                && let Some(best) = at_place[place[*corner as usize]].iter().max_by(|a, b| fit(a).total_cmp(&fit(b)))
+            {
+                *corner = *best;
+            }
+        }
     }
 }
 
@@ -90,10 +116,13 @@ impl Scene {
     }
 }
 
-/// The ratio of each `lod` below 1, and the lens that limits it; a rule limits none.
+/// The ratio of each `lod` below 1, and the lens that limits it: a rule limits none, nor does a lens limit what it shows.
 fn lods(spec: &Spec) -> impl Iterator<Item = (f32, Option<&LensSpec>)> {
+    let ratio = |filters: &[At<Filter>]| lod(filters.iter().map(|filter| &filter.value));
+    let shows = |lens: &LensSpec| lens.filters.iter().any(|filter| matches!(filter.value, Filter::Show(_)));
     let lenses = spec.lenses.iter().filter(|lens| lens.enabled);
-    let of_lenses = lenses.filter_map(|lens| Some((lod(lens.filters.iter().map(|f| &f.value))?, Some(lens))));
-    let of_rules = spec.overlaps.iter().filter_map(|rule| Some((lod(rule.filters.iter().map(|f| &f.value))?, None)));
+    let of_lenses =
+        lenses.filter_map(move |lens| Some((ratio(&lens.filters)?, Some(lens).filter(|lens| !shows(lens)))));
+    let of_rules = spec.overlaps.iter().filter_map(move |rule| Some((ratio(&rule.filters)?, None)));
     of_lenses.chain(of_rules).filter(|(ratio, _)| *ratio < 1.0)
 }

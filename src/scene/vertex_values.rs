@@ -89,7 +89,7 @@ fn curvature(primitive: &Primitive) -> Vec<f32> {
 }
 
 /// A number for each vertex, the same for all at one place.
-fn places(primitive: &Primitive) -> Vec<usize> {
+pub(super) fn places(primitive: &Primitive) -> Vec<usize> {
     let mut known = HashMap::new();
     let number = |p: &glam::Vec3| {
         let next = known.len();
