@@ -1,6 +1,6 @@
 // The fragment that is drawn at a window's one pixel, or a cap before it, classified and shaded. Twin of `explain.rs`.
 
-// Found, instance, number of its triangle among all, number of its cap or NONE, depth, displayed, opacity, coverage, weights, normal, then the
+// Found, instance, number of its triangle among all, number of its cap or NONE, depth, displayed (2: it fills), opacity, coverage, weights, normal, then the
 // words of the set and of the stack.
 @group(2) @binding(4) var<storage, read_write> report: array<u32>;
 
@@ -21,10 +21,11 @@ fn explain() {
     }
     let tile = tile_at(pixel);
     let met = met_at(pick, tile, pixel, ray);
-    var displayed = true;
+    var displayed = 1u;
     if !is_cap(pick.triangle) {
         let here = set_at(tile, pixel, pick.depth);
-        displayed = verdict_at(pick.item, ray, tile, pixel, pick.depth, here).displayed;
+        let verdict = verdict_at(pick.item, ray, tile, pixel, pick.depth, here);
+        displayed = u32(verdict.displayed) + u32(verdict.fills);
     }
     var passed = Set();
     for (var w = 0u; w < WORDS; w += 1u) {
@@ -36,7 +37,7 @@ fn explain() {
     report[2] = pick.key;
     report[3] = select(NONE, pick.triangle, is_cap(pick.triangle));
     report[4] = bitcast<u32>(pick.depth);
-    report[5] = u32(displayed);
+    report[5] = displayed;
     report[6] = bitcast<u32>(shaded.opacity);
     report[7] = bitcast<u32>(shaded.coverage);
     for (var i = 0u; i < 3u; i += 1u) {

@@ -26,15 +26,19 @@ fn vertex(
     let at = vec4f(local, 1.0);
     let p = vec3f(dot(shown.row_x, at), dot(shown.row_y, at), dot(shown.row_z, at));
     let depth = dot(p, frame.forward.xyz);
-    // Reverse-Z: infinite far plane in perspective, linear otherwise.
     var clip = vec4f(dot(p, frame.right.xyz), dot(p, frame.up.xyz), frame.near, depth);
     if frame.perspective == 0u {
-        clip.z = (frame.far - depth) / (frame.far - frame.near);
+        clip.z = drawn_depth(depth);
         clip.w = 1.0;
     }
     let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
     return Varying(vec4f(moved, clip.zw), item, vertex - shown.base_vertex, depth);
+}
+
+// Reverse-Z: infinite far plane in perspective, linear otherwise.
+fn drawn_depth(depth: f32) -> f32 {
+    return select((frame.far - depth) / (frame.far - frame.near), frame.near / depth, frame.perspective != 0u);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.
@@ -45,21 +49,21 @@ fn plain(in: Varying) -> @location(0) vec2u {
 
 // `fused`: the fragment finds its region and its stack itself. Small triangles are many: it reads none of their corners.
 @fragment
-fn fused(in: Varying) -> @location(0) vec2u {
+fn fused(in: Varying) -> Drawn {
     let pixel = vec2u(in.position.xy);
     if in.depth < frame.near || in.depth > frame.far {
         discard;
     }
     if !TAKEN_AWAY && !TRANSLUCENT {
-        return vec2u(in.item + 1u, in.triangle);
+        return drawn(vec2u(in.item + 1u, in.triangle), in.position.z);
     }
     let around = set_at(tile_at(pixel), pixel, in.depth);
-    return keep(in.item, in.triangle, pixel, pixel_ray(pixel), in.depth, around);
+    return keep(in, pixel, pixel_ray(pixel), in.depth, around);
 }
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
 @fragment
-fn peel(in: Varying) -> @location(0) vec2u {
+fn peel(in: Varying) -> Drawn {
     let pixel = vec2u(in.position.xy);
     let tile = tile_at(pixel);
     let count = layer_count(tile, pixel);
@@ -72,14 +76,14 @@ fn peel(in: Varying) -> @location(0) vec2u {
         discard;
     }
     if tile.part_count == 0u {
-        return keep(in.item, in.triangle, pixel, ray, hit.depth, Set());
+        return keep(in, pixel, ray, hit.depth, Set());
     }
     let at = layers_at(tile, pixel);
     let next = frame.layer + 1u;
     if !is_begun(at, frame.layer, hit.depth) || (next < count && is_begun(at, next, hit.depth)) {
         discard;
     }
-    return keep(in.item, in.triangle, pixel, ray, hit.depth, layer_set(at, frame.layer));
+    return keep(in, pixel, ray, hit.depth, layer_set(at, frame.layer));
 }
 
 // For `explain`: the nearest fragment behind a given one, whatever the lenses make of it.
@@ -98,14 +102,18 @@ fn next_behind(in: Varying) -> @location(0) vec2u {
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
-fn keep(item: u32, triangle: u32, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> vec2u {
-    let verdict = verdict_at(item, ray, tile_at(pixel), pixel, depth, inside);
+fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Drawn {
+    let verdict = verdict_at(in.item, ray, tile_at(pixel), pixel, depth, inside);
     if !verdict.displayed {
         discard;
     }
-    if TRANSLUCENT && may_be_translucent(item, verdict.stack) {
-        append(head_of(pixel), meeting(item, triangle, ray).hit.depth, item, triangle);
+    if TRANSLUCENT && may_be_translucent(in.item, verdict.stack) {
+        append(head_of(pixel), meeting(in.item, in.triangle, ray).hit.depth, in.item, in.triangle);
         discard;
     }
-    return vec2u(item + 1u, triangle);
+    var z = in.position.z;
+    if verdict.fills {
+        z = drawn_depth(depth + items[in.item].spread);
+    }
+    return drawn(vec2u(in.item + 1u, in.triangle), z);
 }

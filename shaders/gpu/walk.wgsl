@@ -9,8 +9,10 @@ struct Verdict {
     there: bool,
     // The share of the triangles in the version that is seen.
     ratio: f32,
-    // It is there, and in this version.
+    // It is there, and in this version, or it fills a gap between versions.
     displayed: bool,
+    // It is seen only where no surface lies within its spread behind it.
+    fills: bool,
 }
 
 fn item_mask(item: u32, mask: u32, word: u32) -> u32 {
@@ -37,7 +39,7 @@ fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
     if rule != NONE {
         return rule_verdict(item, rule, here);
     }
-    var verdict = Verdict(Set(), Set(), false, 1.0, false);
+    var verdict = Verdict(Set(), Set(), false, 1.0, false, false);
     var is_decided = false;
     var inside = here;
     var hidden = Set();
@@ -110,16 +112,22 @@ fn is_version(item: u32, ratio: f32) -> bool {
     return !VERSIONS || ratio == items[item].ratio;
 }
 
-// The same at a depth of the pixel's own ray. Where, along the ray, another version of an item is seen close by, all of it
-// is seen, too: simplified surfaces do not quite meet those that they stand for, and no gap may open between them.
+// How near another version must be seen for an item to fill gaps, in its spread; twin of `instances.rs`.
+const FILLING_REACH: f32 = 4.0;
+
+// The same at a depth of the pixel's own ray. Simplified surfaces do not quite meet those that they stand for: a ray may
+// miss each of two versions where it is seen. So that no gap opens, all of an item fills in where another version is seen
+// close by, as if it lay its spread farther from the eye. What is seen through does not: it would be seen twice.
 fn verdict_at(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32, here: Set) -> Verdict {
     var verdict = walk(item, ray, depth, here);
-    if VERSIONS && verdict.there && !verdict.displayed && items[item].ratio == 1.0 {
+    if VERSIONS && verdict.there && !verdict.displayed && items[item].ratio == 1.0
+        && !may_be_translucent(item, verdict.stack) {
         for (var side = -1.0; side < 2.0; side += 2.0) {
-            let close_by = clamp(depth + side * items[item].spread, frame.near, frame.far);
+            let close_by = clamp(depth + side * FILLING_REACH * items[item].spread, frame.near, frame.far);
             let other = walk(item, ray, close_by, set_at(tile, pixel, close_by));
-            verdict.displayed = verdict.displayed || (other.there && other.ratio != verdict.ratio);
+            verdict.fills = verdict.fills || (other.there && other.ratio != verdict.ratio);
         }
+        verdict.displayed = verdict.fills;
     }
     return verdict;
 }
@@ -152,7 +160,7 @@ fn rule_holds(rank: u32, item: u32, around: Set) -> bool {
 
 // A rule's filters are the whole stack, on the plain scene: what lenses move or show is not there.
 fn rule_verdict(item: u32, rule: u32, here: Set) -> Verdict {
-    var verdict = Verdict(Set(), Set(), false, 1.0, false);
+    var verdict = Verdict(Set(), Set(), false, 1.0, false, false);
     for (var w = 0u; w < WORDS; w += 1u) {
         verdict.around.words[w] = applying_word(item, here, w) & item_mask(item, MASK_SCOPE, w);
     }

@@ -64,14 +64,14 @@ struct OneRay {
     at: Vec2,
     layers: RayLayers,
     moved: MovedLayers,
-    /// The nearest fragment that surely ends the ray.
-    opaque: Option<Fragment>,
+    /// The fragment that surely ends the ray, and how far behind its depth it gives way to others.
+    opaque: Option<(Fragment, f32)>,
 }
 
 impl Scratch {
     /// Where a ray of the block traced last surely ends.
     pub fn depth(&self, sample: usize) -> f32 {
-        self.rays[sample].opaque.map_or(f32::INFINITY, |fragment| fragment.depth)
+        self.rays[sample].opaque.map_or(f32::INFINITY, |(fragment, _)| fragment.depth)
     }
 }
 
@@ -133,21 +133,29 @@ impl<'a> Tracer<'a> {
                 let Triangle { instance, index, .. } = *triangle;
                 let mut fragment =
                     Fragment { instance, triangle: index, depth, weights: hit.weights, region: Region::PLAIN };
+                let mut behind = 0.0;
                 if !self.is_plain(instance, lenses) {
                     let verdict = self.verdict(&one.ray, instance, depth, &one.layers, &mut one.moved);
                     if !verdict.displayed {
                         return None;
                     }
                     fragment.region = Region { set: verdict.set, stack: verdict.stack };
-                    if self.item(instance).translucent || !(verdict.stack & self.translucent).is_empty() {
+                    if self.may_be_translucent(self.instance(instance), verdict.stack) {
                         listed.push((number as u32, fragment));
                         return None;
                     }
+                    if verdict.fills {
+                        behind = self.instance(instance).spread as f32;
+                    }
                 }
-                let is_nearer = one.opaque.is_none_or(|known| self.key(&fragment) < self.key(&known));
+                let order = |(fragment, behind): (Fragment, f32)| {
+                    let (depth, number) = self.key(&fragment);
+                    (depth + behind, number)
+                };
+                let is_nearer = one.opaque.is_none_or(|known| order((fragment, behind)) < order(known));
                 is_nearer.then(|| {
-                    one.opaque = Some(fragment);
-                    hit.t
+                    one.opaque = Some((fragment, behind));
+                    if behind > 0.0 { self.parameter(f64::from(depth + behind)) } else { hit.t }
                 })
             });
         }
@@ -184,13 +192,13 @@ impl<'a> Tracer<'a> {
     /// Says who acts on the opaque fragments that did not ask, and leaves of the others those that can be seen, in order.
     fn finish(&self, rays: &mut [OneRay], lenses: LensSet, listed: &mut Vec<(u32, Fragment)>) {
         for one in rays.iter_mut() {
-            if let Some(fragment) = one.opaque.as_mut().filter(|fragment| self.is_plain(fragment.instance, lenses)) {
+            if let Some((fragment, _)) = one.opaque.as_mut().filter(|(own, _)| self.is_plain(own.instance, lenses)) {
                 let verdict = self.verdict(&one.ray, fragment.instance, fragment.depth, &one.layers, &mut one.moved);
                 fragment.region = Region { set: verdict.set, stack: verdict.stack };
             }
         }
         listed.retain(|(ray, fragment)| {
-            rays[*ray as usize].opaque.is_none_or(|opaque| self.key(fragment) < self.key(&opaque))
+            rays[*ray as usize].opaque.is_none_or(|(opaque, _)| self.key(fragment) < self.key(&opaque))
         });
         listed.sort_unstable_by(|(a, f), (b, g)| {
             a.cmp(b).then(self.key(f).partial_cmp(&self.key(g)).unwrap_or(std::cmp::Ordering::Equal))
@@ -272,10 +280,17 @@ impl<'a> Tracer<'a> {
     fn verdict(&self, ray: &Ray, instance: u32, depth: f32, layers: &RayLayers, moved: &mut MovedLayers) -> Verdict {
         let instance = self.instance(instance);
         let depth = f64::from(depth);
-        self.plan.verdict(instance, depth, |step, depth| match step.checked_sub(1) {
+        let verdict = self.plan.verdict(instance, depth, |step, depth| match step.checked_sub(1) {
             None => layers.set_at(depth),
             Some(passed) => moved.below(self.plan, ray, &instance.steps[passed]).set_at(depth),
-        })
+        });
+        // What is seen through does not fill in: it would be seen twice.
+        let gives_up = verdict.fills && self.may_be_translucent(instance, verdict.stack);
+        if gives_up { Verdict { displayed: false, fills: false, ..verdict } } else { verdict }
+    }
+
+    fn may_be_translucent(&self, instance: &Instance, stack: LensSet) -> bool {
+        self.plan.items[instance.item].translucent || !(stack & self.translucent).is_empty()
     }
 
     fn instance(&self, instance: u32) -> &'a Instance {
@@ -328,7 +343,7 @@ impl<'a> Tracer<'a> {
 fn fragments<'f>(sample: usize, one: &'f OneRay, listed: &'f [(u32, Fragment)]) -> impl Iterator<Item = &'f Fragment> {
     let first = listed.partition_point(|(ray, _)| (*ray as usize) < sample);
     let own = listed[first..].iter().take_while(move |(ray, _)| *ray as usize == sample);
-    own.map(|(_, fragment)| fragment).chain(&one.opaque)
+    own.map(|(_, fragment)| fragment).chain(one.opaque.iter().map(|(fragment, _)| fragment))
 }
 
 /// The samples of a block that may see a geometry; `None` where none does.

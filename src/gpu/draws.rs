@@ -189,8 +189,8 @@ impl<'a> Lenses<'a> {
 
     /// Bounds around all places at which a part of an instance asks who acts.
     fn spread(&self, instance: &Instance, bounds: &Aabb) -> Aabb {
-        let longest = self.plan.view.ray(0.0, 0.0).direction.length();
-        Aabb { min: bounds.min - instance.spread * longest, max: bounds.max + instance.spread * longest }
+        let reach = instance.filling_reach() * self.plan.view.ray(0.0, 0.0).direction.length();
+        Aabb { min: bounds.min - reach, max: bounds.max + reach }
     }
 
     /// The lenses that test every fragment, mean something to an item, and hold all of some bounds; `None` where one may

@@ -20,6 +20,8 @@ struct Found {
     survivor: Survivor,
     normal: Vec3,
     displayed: bool,
+    /// It is seen only if no surface lies close behind it: see [`Plan::verdict`].
+    fills: bool,
 }
 
 impl Headless {
@@ -37,7 +39,8 @@ impl Headless {
         let window = Window { min: pixel, size: [1, 1] };
         let layers = self.layers(renderer, scene, plan, window)?.swap_remove(0);
         let mut report = PixelReport { layers, ..PixelReport::default() };
-        let found = self.fragments(renderer, scene, plan, window)?;
+        let mut found = self.fragments(renderer, scene, plan, window)?;
+        outdo(plan, &mut found);
         for Found { survivor, normal, .. } in found.iter().filter(|f| f.displayed) {
             if !report.push(*survivor, *normal) {
                 break;
@@ -125,6 +128,23 @@ impl Headless {
     }
 }
 
+/// Leaves of what fills gaps only what ends the ray: as if it lay its spread farther from the eye.
+fn outdo(plan: &Plan, found: &mut [Found]) {
+    let translucent = plan.translucent();
+    let order = |found: &Found| {
+        let Fragment { instance, depth, .. } = found.survivor.fragment;
+        let behind = if found.fills { plan.instances[instance as usize].spread as f32 } else { 0.0 };
+        depth + behind
+    };
+    let is_opaque = |found: &&Found| {
+        let Fragment { instance, region, .. } = found.survivor.fragment;
+        let item = &plan.items[plan.instances[instance as usize].item];
+        found.displayed && !item.translucent && (region.stack & translucent).is_empty()
+    };
+    let end = found.iter().filter(is_opaque).map(order).fold(f32::INFINITY, f32::min);
+    found.iter_mut().filter(|found| found.fills && order(found) > end).for_each(|found| found.displayed = false);
+}
+
 fn found(plan: &Plan, words: &[u32]) -> Found {
     let (fixed, sets) = words.split_at(FIXED_WORDS);
     let [set, stack] = [0, 1].map(|i| LensSet::from_words(&sets[i * sets.len() / 2..][..sets.len() / 2]));
@@ -144,5 +164,6 @@ fn found(plan: &Plan, words: &[u32]) -> Found {
         survivor: Survivor { fragment, opacity: float(6), coverage: float(7) },
         normal: Vec3::new(float(11), float(12), float(13)),
         displayed: fixed[5] != 0,
+        fills: fixed[5] == 2,
     }
 }

@@ -78,6 +78,8 @@ const FIND_CAPS: &str = include_str!("../../shaders/gpu/find_caps.wgsl");
 const CLOSING: &str = include_str!("../../shaders/gpu/closing.wgsl");
 const BOUNDARY: &str = include_str!("../../shaders/gpu/boundary.wgsl");
 const CAPS: &str = include_str!("../../shaders/gpu/caps.wgsl");
+const DRAWN: &str = include_str!("../../shaders/gpu/drawn.wgsl");
+const DRAWN_VERSIONS: &str = include_str!("../../shaders/gpu/drawn_versions.wgsl");
 const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");
 const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
@@ -98,6 +100,9 @@ pub fn source(module: Module, needs: &Needs, custom: &str) -> String {
     text += COMMON;
     if module.parts().iter().any(|parts| parts.contains(&CUSTOM)) {
         text += custom;
+    }
+    if module == Module::Visibility {
+        text += if needs.versions { DRAWN_VERSIONS } else { DRAWN };
     }
     for part in module.parts().iter().copied().flatten() {
         text += part;

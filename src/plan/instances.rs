@@ -18,6 +18,8 @@ use crate::spec::{At, By, Filter, Pattern};
 const MOST_WAYS: usize = 256;
 /// Of bounds, as a share of their largest coordinate; positions are f32 in a file.
 const ROUNDING: f64 = 1e-6;
+/// How near another version must be seen for an item to fill gaps, in its spread; twin of `walk.wgsl`.
+const FILLING_REACH: f64 = 4.0;
 /// The most instances of a plan.
 const MOST_INSTANCES: usize = 1 << 20;
 
@@ -32,7 +34,7 @@ pub struct Instance {
     pub bounds: Aabb,
     /// Through which lenses, the highest first; none in place.
     pub steps: Vec<Step>,
-    /// How far the versions of the item may lie from each other where it is shown, scene units.
+    /// How far the versions of the item may lie from each other on a ray where it is shown, scene units.
     pub spread: f64,
 }
 
@@ -48,6 +50,11 @@ pub struct Step {
 impl Instance {
     fn in_place(number: usize, item: &Item, bounds: Aabb) -> Self {
         Self { item: number, shown_from_world: DAffine3::IDENTITY, bounds, steps: Vec::new(), spread: item.spread }
+    }
+
+    /// How near another version of it must be seen on a ray for it to fill gaps: at the rims of parts more than its spread.
+    pub fn filling_reach(&self) -> f64 {
+        FILLING_REACH * self.spread
     }
 
     pub fn is_moved(&self) -> bool {

@@ -175,7 +175,7 @@ pub(super) fn collect(
 }
 
 /// Of a meshoptimizer error, which is less than how far apart surfaces may lie on a slanting ray.
-const SPREAD: f64 = 4.0;
+const SPREAD: f64 = 8.0;
 
 /// An item, and the simplified versions of it that lenses and rules may show, the finest first.
 fn versions(item: Item, lenses: &[Lens], rules: &[Rule], scene: &Scene) -> Result<Vec<Item>, InputError> {

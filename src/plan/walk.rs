@@ -17,8 +17,10 @@ pub struct Verdict {
     pub there: bool,
     /// The share of the triangles in the version that is seen.
     pub ratio: f32,
-    /// It is there, and in this version.
+    /// It is there, and in this version, or it fills a gap between versions.
     pub displayed: bool,
+    /// It is seen only where no surface lies within [`Instance::spread`] behind it: see [`Plan::verdict`].
+    pub fills: bool,
     /// Who takes it away from here: what erases it, shows something else, or moves it elsewhere. An alternate that
     /// no lens shows is not taken away, it is not there.
     pub removed_by: LensSet,
@@ -59,6 +61,7 @@ impl Plan {
             there: true,
             ratio: 1.0,
             displayed: true,
+            fills: false,
             removed_by: nothing,
             simplified_by: None,
         };
@@ -108,19 +111,22 @@ impl Plan {
         verdict
     }
 
-    /// As [`Plan::walk`] at a depth of a ray. Where, along the ray, another version of an item is seen close by, all of it
-    /// is seen, too: simplified surfaces do not quite meet those that they stand for, and no gap may open between them.
+    /// As [`Plan::walk`] at a depth of a ray. Simplified surfaces do not quite meet those that they stand for: a ray may
+    /// miss each of two versions where it is seen. So that no gap opens, all of an item fills in where another version is
+    /// seen close by, as if it lay [`Instance::spread`] farther from the eye: in front of nothing but what is behind both.
     ///
     /// `around(n, depth)`: as there.
     pub fn verdict(&self, instance: &Instance, depth: f64, mut around: impl FnMut(usize, f64) -> LensSet) -> Verdict {
         let mut verdict = self.walk(instance, |steps| around(steps, depth));
         if verdict.there && !verdict.displayed && !self.items[instance.item].is_simplified() {
-            let close_by = [depth - instance.spread, depth + instance.spread];
-            verdict.displayed = close_by.into_iter().any(|depth| {
+            let reach = instance.filling_reach();
+            let close_by = [depth - reach, depth + reach];
+            verdict.fills = close_by.into_iter().any(|depth| {
                 let depth = depth.clamp(self.view.near, self.view.far);
                 let other = self.walk(instance, |steps| around(steps, depth));
                 other.there && other.ratio != verdict.ratio
             });
+            verdict.displayed = verdict.fills;
         }
         verdict
     }
@@ -139,6 +145,7 @@ impl Plan {
             there,
             ratio,
             displayed: there && ratio == item.ratio,
+            fills: false,
             removed_by: if gone && !item.is_alternate() { LensSet::only(rank) } else { LensSet::EMPTY },
             simplified_by,
         }

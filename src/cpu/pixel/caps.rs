@@ -96,7 +96,7 @@ impl Tracer<'_> {
         let steps = &self.plan.instances[body.members[0].instance].steps;
         let layers = moved.all(self.plan, ray, layers, steps);
         for boundary in boundaries((0..=steps.len()).map(&layers)) {
-            if opaque.is_some_and(|opaque| f64::from(opaque.depth) < boundary) {
+            if opaque.is_some_and(|(opaque, _)| f64::from(opaque.depth) < boundary) {
                 continue;
             }
             let Some(Member { instance, .. }) = around(body, crossings, boundary) else { continue };

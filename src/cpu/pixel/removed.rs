@@ -29,7 +29,9 @@ impl Tracer<'_> {
             // What is moved is told of where it stands and where it is seen, not where it might have been.
             let told = verdict.here || !self.instance(triangle.instance).is_moved();
             let by = verdict.taken_by(self.item(triangle.instance));
-            if told && !verdict.displayed && !by.is_empty() {
+            // What fills in and is not what is seen has been outdone by another version.
+            let is_gone = !verdict.displayed || verdict.fills;
+            if told && is_gone && !by.is_empty() {
                 let fragment = Fragment {
                     instance: triangle.instance,
                     triangle: triangle.index,
