@@ -1,7 +1,7 @@
 //! The appearance functions against closed forms.
 
 use lenspeel::appearance as wgsl;
-use naga_rust_rt::{Vec3, Vec4};
+use naga_rust_rt::{Vec2, Vec3, Vec4};
 
 fn near(a: f32, b: f32, tolerance: f32) -> bool {
     (a - b).abs() <= tolerance
@@ -31,10 +31,10 @@ fn surface(base: [f32; 3], unlit: f32) -> wgsl::Surface {
         alpha_cutoff: 0.5,
         opacity: 1.0,
         unlit,
-        pixel: naga_rust_rt::Vec2::new(0.0, 0.0),
-        toon: naga_rust_rt::Vec2::new(0.0, 0.0),
+        pixel: Vec2::new(0.0, 0.0),
+        toon: Vec2::new(0.0, 0.0),
         hatch: Vec4::new(0.0, 0.0, 0.0, 0.0),
-        hatch_lines: naga_rust_rt::Vec2::new(1.0, 1.0),
+        hatch_lines: Vec2::new(1.0, 1.0),
     }
 }
 
@@ -122,4 +122,32 @@ fn ghosts_are_clear_face_on() {
     };
     assert!(near(seen(1.0, 1.0), 0.0, 1e-6) && near(seen(0.0, 1.0), 1.0, 1e-6));
     assert!(near(seen(0.5, 1.0), 0.25, 1e-6) && near(seen(0.5, 0.5), 0.625, 1e-6));
+}
+
+/// The tangent of a triangle runs along growing u, and its bitangent up the image, against growing v, however the
+/// texture lies.
+#[test]
+fn tangents_of_triangles_run_along_u_and_up_the_image() {
+    let normal = Vec3::new(0.0, 0.0, 1.0);
+    // Columns: how u and v grow along x and along y.
+    for [ux, vx, uy, vy] in [
+        [1.0, 0.0, 0.0, -1.0],
+        [-1.0, 0.0, 0.0, -1.0],
+        [0.0, -1.0, -1.0, 0.0],
+        [0.0, 1.0, -1.0, 0.0],
+        [2.0, 0.5, 0.3, 3.0],
+    ] {
+        let corners = [(0.0f32, 0.0f32), (1.0, 0.2), (0.3, 1.0)];
+        let [a, b, c] = corners.map(|(x, y)| Vec3::new(x, y, 0.0));
+        let [ta, tb, tc] = corners.map(|(x, y)| Vec2::new(ux * x + uy * y, vx * x + vy * y));
+        let tangent = wgsl::triangle_tangent(a, b, c, ta, tb, tc, normal);
+        // Of the inverse map: the ways in which u alone and v alone grow.
+        let det = ux * vy - uy * vx;
+        let (along_u, along_v) = ((vy / det, -vx / det), (-uy / det, ux / det));
+        assert!(tangent.x * along_u.0 + tangent.y * along_u.1 > 0.0 && tangent.z == 0.0, "{ux} {vx} {uy} {vy}");
+        assert!((tangent.x * along_u.1 - tangent.y * along_u.0).abs() < 1e-5, "{ux} {vx} {uy} {vy}: along u");
+        let bitangent = (-tangent.y * tangent.w, tangent.x * tangent.w);
+        assert!(bitangent.0 * along_v.0 + bitangent.1 * along_v.1 < 0.0, "{ux} {vx} {uy} {vy}: up the image");
+        assert!(tangent.w.abs() == 1.0);
+    }
 }

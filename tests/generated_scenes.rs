@@ -52,7 +52,7 @@ fn every_model_loads_without_a_warning() {
 }
 
 /// Meshes that are open on purpose.
-const OPEN: [&str; 9] = ["red", "yellow", "green", "blue", "violet", "repeat", "mirror", "clamp", "screen"];
+const OPEN: [&str; 10] = ["red", "yellow", "green", "blue", "violet", "repeat", "mirror", "clamp", "screen", "panel"];
 
 #[test]
 fn every_solid_is_closed_and_turned_outwards() {

@@ -1,4 +1,4 @@
-//! What the README shows is true: its spec is valid, and the files it names are there.
+//! What the README and the page of published lenses show is true: the spec is valid, and the files they name are there.
 
 use std::path::Path;
 
@@ -25,12 +25,30 @@ fn the_example_spec_is_good_and_decided() {
     assert!(overlap, "the README's lenses overlap");
 }
 
+/// What a page's links and pictures name.
+fn links(page: &str) -> Vec<&str> {
+    page.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect()
+}
+
 #[test]
 fn every_file_that_the_readme_names_is_there() {
     let readme = readme();
-    let links: Vec<&str> = readme.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    let links = links(&readme);
     assert!(links.len() >= 5, "the README shows pictures");
     for link in links {
         assert!(Path::new(link).exists(), "{link} is missing");
     }
+}
+
+#[test]
+fn the_page_of_published_lenses_shows_each_of_them() {
+    let folder = Path::new("lens-specs/published");
+    let page = std::fs::read_to_string(folder.join("README.md")).expect("the page is there");
+    let mut named = links(&page);
+    named.sort_unstable();
+    let entries = std::fs::read_dir(folder).expect("the folder is there");
+    let files = entries.map(|entry| entry.expect("a readable folder").file_name().to_string_lossy().into_owned());
+    let mut there: Vec<String> = files.filter(|file| file != "README.md").collect();
+    there.sort_unstable();
+    assert_eq!(named, there, "each spec and each picture once");
 }

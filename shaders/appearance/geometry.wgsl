@@ -132,7 +132,7 @@ fn triangle_tangent(a: vec3f, b: vec3f, c: vec3f, uv_a: vec2f, uv_b: vec2f, uv_c
     // In glTF v runs down the image, so the bitangent points towards smaller v.
     let across = ((c - a) * d1.x - (b - a) * d2.x) * select(1.0, -1.0, det < 0.0);
     let side = dot(cross(normal, flat_along), across);
-    return vec4f(normalize(flat_along), select(-1.0, 1.0, side > 0.0));
+    return vec4f(normalize(flat_along), select(-1.0, 1.0, side < 0.0));
 }
 
 // A unit normal bent by a normal map's texel (0..1 each). A zero tangent leaves it as it is.

@@ -50,15 +50,23 @@ fn as_shown(placement: Placement, v: vec3f) -> vec3f {
 // A normal of the item's own space, as shown, of any length. The inverse transposed of the map is, but for a factor,
 // the matrix of its cofactors.
 fn normal_as_shown(placement: Placement, n: vec3f) -> vec3f {
+    let m = unit_rows(placement);
+    let turned = vec3f(dot(cross(m[1], m[2]), n), dot(cross(m[2], m[0]), n), dot(cross(m[0], m[1]), n));
+    // A mirror turns them round.
+    return turned * side_as_shown(placement);
+}
+
+// -1 where an item is shown mirrored, else 1.
+fn side_as_shown(placement: Placement) -> f32 {
+    let m = unit_rows(placement);
+    return select(1.0, -1.0, dot(m[0], cross(m[1], m[2])) < 0.0);
+}
+
+// The rows of the map, so that the largest number is 1.
+fn unit_rows(placement: Placement) -> mat3x3f {
     let largest = max(abs(placement.row_x.xyz), max(abs(placement.row_y.xyz), abs(placement.row_z.xyz)));
     let scale = 1.0 / max(max(largest.x, max(largest.y, largest.z)), 1e-30);
-    let x = placement.row_x.xyz * scale;
-    let y = placement.row_y.xyz * scale;
-    let z = placement.row_z.xyz * scale;
-    let yz = cross(y, z);
-    let turned = vec3f(dot(yz, n), dot(cross(z, x), n), dot(cross(x, y), n));
-    // A mirror turns them round.
-    return select(turned, -turned, dot(x, yz) < 0.0);
+    return mat3x3f(placement.row_x.xyz * scale, placement.row_y.xyz * scale, placement.row_z.xyz * scale);
 }
 
 // Where a pixel's ray meets a triangle of an item.

@@ -88,7 +88,8 @@ fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view
         if items[item].tangents != NONE {
             let along = interpolated4(items[item].tangents, t.corners, weights);
             let shown = normalize_or(as_shown(t.placement, along.xyz), vec3f(0.0));
-            tangent = vec4f(shown, select(1.0, -1.0, along.w < 0.0));
+            // A mirror turns the bitangent of a tangent and a normal round.
+            tangent = vec4f(shown, select(1.0, -1.0, along.w < 0.0) * side_as_shown(t.placement));
         } else {
             let uv = slot_uv(item, t.corners, materials[items[item].material].slots[SLOT_NORMAL]);
             tangent = triangle_tangent(t.a, t.b, t.c, uv.a, uv.b, uv.c, normal);

@@ -31,6 +31,8 @@ pub struct Shader<'a> {
 struct Transform {
     point: glam::Affine3A,
     normal: glam::Mat3,
+    /// -1 where it mirrors, else 1: a mirror turns the bitangent of a tangent and a normal round.
+    side: f32,
 }
 
 /// A fragment's colour (linear, straight), opacity, coverage, and its shading normal.
@@ -113,7 +115,9 @@ impl<'a> Shader<'a> {
                 let item = &plan.items[instance.item];
                 let mut around = instance.shown_from_world * scene.models[item.model].nodes[item.node].world_from_local;
                 around.translation -= plan.view.eye;
-                Transform { point: around.as_affine3a(), normal: around.matrix3.inverse().transpose().as_mat3() }
+                let side = if around.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
+                let normal = around.matrix3.inverse().transpose().as_mat3();
+                Transform { point: around.as_affine3a(), normal, side }
             })
             .collect();
         let values = |item: &Item| {
@@ -280,7 +284,8 @@ impl<'a> Shader<'a> {
             let tangent = match &corners.primitive.tangents {
                 Some(tangents) => {
                     let t = corners.interpolated(tangents, weights);
-                    transform.point.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w.signum())
+                    let along = transform.point.transform_vector3(t.truncate()).normalize_or_zero();
+                    along.extend(t.w.signum() * transform.side)
                 }
                 None => {
                     let [a, b, c] = corners.around.map(v3);

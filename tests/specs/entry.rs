@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use crate::compare::Reference;
+use lenspeel::cpu;
+use lenspeel::frame::Frame;
 use lenspeel::spec::Spec;
 
 use crate::open::{Opened, open};
@@ -14,6 +16,10 @@ use crate::reference;
 const LEAST_PROPERTIES: usize = 150;
 /// Pixels of a showcase in the tests; one sample each.
 const SHOWCASE_SIZE: [u32; 2] = [160, 90];
+/// Likewise of a published lens; its golden has the pixels and samples that the spec says.
+const PUBLISHED_SIZE: [u32; 2] = [160, 120];
+/// The folder of published lenses.
+const PUBLISHED: &str = "published";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -21,6 +27,8 @@ pub enum Kind {
     Property,
     /// A spec to look at, rendered small.
     Showcase,
+    /// A spec to look at, with a golden as it stands; rendered small for all else.
+    Published,
 }
 
 /// One committed spec.
@@ -38,13 +46,31 @@ impl Entry {
     }
 
     pub fn open(&self) -> Result<(Spec, Opened), String> {
-        let text = fs::read_to_string(&self.path).map_err(|error| format!("{}: {error}", self.path.display()))?;
-        open(&self.path, &text, |spec| {
-            if self.kind == Kind::Showcase {
-                spec.image.size = SHOWCASE_SIZE;
+        let small = match self.kind {
+            Kind::Property => None,
+            Kind::Showcase => Some(SHOWCASE_SIZE),
+            Kind::Published => Some(PUBLISHED_SIZE),
+        };
+        self.open_changed(|spec| {
+            if let Some(size) = small {
+                spec.image.size = size;
                 spec.image.samples = 1;
             }
         })
+    }
+
+    fn open_changed(&self, change: impl FnOnce(&mut Spec)) -> Result<(Spec, Opened), String> {
+        let text = fs::read_to_string(&self.path).map_err(|error| format!("{}: {error}", self.path.display()))?;
+        open(&self.path, &text, change)
+    }
+
+    /// The picture that lies beside the spec, as the CPU backend draws it.
+    pub fn picture(&self) -> Result<Frame, String> {
+        if self.kind == Kind::Property {
+            return Ok(self.reference()?.frame.clone());
+        }
+        let opened = self.open_changed(|_| ())?.1;
+        Ok(cpu::Renderer::new(&opened.scene, &opened.plan).render(false, &|_| ()))
     }
 
     /// The CPU backend's picture, rendered once a process.
@@ -62,8 +88,9 @@ pub fn all() -> Vec<Entry> {
     let mut entries: Vec<Entry> =
         specs_in(&folder()).into_iter().map(|path| Entry::new(stem(&path), Kind::Showcase, path)).collect();
     for topic in topics() {
-        let property = |path: PathBuf| Entry::new(format!("{}/{}", stem(&topic), stem(&path)), Kind::Property, path);
-        entries.extend(specs_in(&topic).into_iter().map(property));
+        let kind = if stem(&topic) == PUBLISHED { Kind::Published } else { Kind::Property };
+        let entry = |path: PathBuf| Entry::new(format!("{}/{}", stem(&topic), stem(&path)), kind, path);
+        entries.extend(specs_in(&topic).into_iter().map(entry));
     }
     let properties = entries.iter().filter(|entry| entry.kind == Kind::Property).count();
     assert!(properties >= LEAST_PROPERTIES, "only {properties} specs under {}", folder().display());

@@ -16,7 +16,7 @@ const SHARE: f64 = 0.005;
 /// Compares with the golden, or writes it where `LENSPEEL_UPDATE_GOLDENS` is 1.
 pub fn check(entry: &Entry) -> Result<(), String> {
     let path = entry.path.with_extension("png");
-    let frame = &entry.reference()?.frame;
+    let frame = &entry.picture()?;
     if std::env::var_os("LENSPEEL_UPDATE_GOLDENS").is_some_and(|value| value == "1") {
         return write_picture(&path, frame).map_err(|error| error.to_string());
     }

@@ -40,7 +40,7 @@ fn main() {
 
 fn trials_of(entry: Arc<Entry>) -> Vec<Trial> {
     let mut trials = vec![trial(&entry, "plan", snapshot::plan), trial(&entry, "regions", snapshot::regions)];
-    if entry.kind == Kind::Property {
+    if entry.kind != Kind::Showcase {
         trials.push(trial(&entry, "golden", golden::check));
     }
     if pick::SPECS.contains(&entry.name.as_str()) {

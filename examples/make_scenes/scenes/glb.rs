@@ -30,6 +30,7 @@ pub struct Look {
     pub emissive: [f32; 3],
     /// Index from [`Glb::texture`].
     pub texture: Option<usize>,
+    pub normal_map: Option<usize>,
     pub alpha: Alpha,
 }
 
@@ -44,8 +45,8 @@ impl Look {
     /// An opaque surface of an sRGB colour `0xrrggbb`.
     pub fn new(name: &'static str, hex: u32, metallic: f32, roughness: f32) -> Self {
         let [r, g, b] = det::rgb(hex);
-        let (emissive, texture, alpha) = ([0.0; 3], None, Alpha::Opaque);
-        Self { name, color: [r, g, b, 1.0], metallic, roughness, emissive, texture, alpha }
+        let (emissive, texture, normal_map, alpha) = ([0.0; 3], None, None, Alpha::Opaque);
+        Self { name, color: [r, g, b, 1.0], metallic, roughness, emissive, texture, normal_map, alpha }
     }
 
     pub fn blended(mut self, alpha: f32) -> Self {
@@ -170,6 +171,7 @@ impl Glb {
                 metallic_factor: look.metallic,
                 roughness_factor: look.roughness,
             },
+            normal_texture: look.normal_map.map(|index| TextureUse { index }),
             emissive_factor: (look.emissive != [0.0; 3]).then_some(look.emissive),
             alpha_mode,
             alpha_cutoff,
@@ -272,10 +274,12 @@ impl Glb {
         self.json.accessors[position].min = Some(min.to_vec());
         self.json.accessors[position].max = Some(max.to_vec());
         let normals: Vec<[f32; 3]> = mesh.normals.iter().map(|n| n.as_vec3().to_array()).collect();
+        let tangents: Vec<[f32; 4]> = mesh.tangents.iter().map(|t| t.as_vec4().to_array()).collect();
         let uv: Vec<[f32; 2]> = mesh.uv.iter().map(|t| t.as_vec2().to_array()).collect();
         let attributes = Attributes {
             position,
             normal: (!normals.is_empty()).then(|| self.floats(&normals, "VEC3", Some(VERTICES))),
+            tangent: (!tangents.is_empty()).then(|| self.floats(&tangents, "VEC4", Some(VERTICES))),
             texcoord: (!uv.is_empty()).then(|| self.floats(&uv, "VEC2", Some(VERTICES))),
             color: (!mesh.colors.is_empty()).then(|| self.colors(&mesh.colors)),
             temperature: (!mesh.temperatures.is_empty())

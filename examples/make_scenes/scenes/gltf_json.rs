@@ -126,6 +126,8 @@ pub struct Attributes {
     pub position: usize,
     #[serde(rename = "NORMAL", skip_serializing_if = "Option::is_none")]
     pub normal: Option<usize>,
+    #[serde(rename = "TANGENT", skip_serializing_if = "Option::is_none")]
+    pub tangent: Option<usize>,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
     pub texcoord: Option<usize>,
     #[serde(rename = "COLOR_0", skip_serializing_if = "Option::is_none")]
@@ -139,6 +141,8 @@ pub struct Attributes {
 pub struct MaterialJson {
     pub name: &'static str,
     pub pbr_metallic_roughness: PbrJson,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_texture: Option<TextureUse>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub emissive_factor: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]

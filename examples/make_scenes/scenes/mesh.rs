@@ -1,6 +1,6 @@
 //! Triangle meshes and their shading normals.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3, DVec4};
 
 use super::det;
 
@@ -9,6 +9,8 @@ use super::det;
 pub struct Mesh {
     pub positions: Vec<DVec3>,
     pub normals: Vec<DVec3>,
+    /// With the sign of the bitangent.
+    pub tangents: Vec<DVec4>,
     pub uv: Vec<DVec2>,
     /// Linear light and alpha.
     pub colors: Vec<[u8; 4]>,

@@ -3,6 +3,7 @@
 
 mod anatomy;
 mod bones;
+mod crowd;
 mod det;
 mod erosion;
 mod gear;
@@ -36,6 +37,7 @@ pub fn all() -> Vec<Generated> {
         Generated { name: "hand.glb", bytes: hand::skin() },
         Generated { name: "hand-bones.glb", bytes: bones::skeleton() },
         Generated { name: "solids.glb", bytes: solids::solids() },
+        Generated { name: "crowd.glb", bytes: crowd::crowd() },
     ];
     files.extend(terrain::terrain());
     files.extend(small::all());

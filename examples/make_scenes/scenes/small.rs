@@ -1,6 +1,6 @@
 //! Small models for property tests: a few solids each, named, with plain colours.
 
-use glam::{DVec2, DVec3, dvec2, dvec3};
+use glam::{DVec2, DVec3, DVec4, dvec2, dvec3, dvec4};
 
 use super::Generated;
 use super::det;
@@ -22,6 +22,7 @@ pub fn all() -> Vec<Generated> {
         Generated { name: "heat.glb", bytes: heat() },
         Generated { name: "cutout.glb", bytes: cutout() },
         Generated { name: "motion.glb", bytes: motion() },
+        Generated { name: "bumps.glb", bytes: bumps() },
     ]
 }
 
@@ -246,4 +247,46 @@ fn motion() -> Vec<u8> {
     glb.channel(slider, "translation", "CUBICSPLINE", &[0.0, 1.0, 2.0], &keys);
     glb.channel(slider, "scale", "STEP", &[0.0, 1.0, 2.0], &[[1.0; 3], [1.0, 1.4, 1.0], [1.6, 0.8, 1.0]]);
     glb.finish()
+}
+
+/// Eight panels a unit apart that look alike: a round bump of a normal map, radius 0.35, whatever way the texture lies on
+/// them. From left to right as it is, mirrored, turned, and as it is on a mirrored node; the lower row has tangents.
+fn bumps() -> Vec<u8> {
+    let mut glb = Glb::default();
+    let map = paint::png(paint::rgb(128, 128, bump));
+    let texture = glb.texture("bump", &map, Sampling { min_filter: 9729, ..Sampling::SMOOTH });
+    let mut look = plain("panel", 0xd8_d4cc);
+    look.normal_map = Some(texture);
+    let material = glb.material(look);
+    type Turn = fn(DVec2) -> DVec2;
+    // What becomes of texture coordinates, and the tangent that goes with it.
+    let lies: [(&str, Turn, DVec4); 3] = [
+        ("plain", |uv| uv, dvec4(1.0, 0.0, 0.0, 1.0)),
+        ("mirrored", |uv| dvec2(1.0 - uv.x, uv.y), dvec4(-1.0, 0.0, 0.0, -1.0)),
+        ("turned", |uv| dvec2(1.0 - uv.y, uv.x), dvec4(0.0, 1.0, 0.0, 1.0)),
+    ];
+    for (row, suffix) in [(0, ""), (1, "-tangents")] {
+        let y = 0.5 - f64::from(row);
+        let meshes = lies.map(|(_, turn, tangent)| {
+            let mut panel = quad(DVec2::splat(0.9));
+            panel.uv.iter_mut().for_each(|uv| *uv = turn(*uv));
+            if row == 1 {
+                panel.tangents = vec![tangent; 4];
+            }
+            glb.mesh("panel", &panel, material)
+        });
+        for (k, mesh) in meshes.into_iter().enumerate() {
+            glb.node(&format!("{}{suffix}", lies[k].0), Place::mesh(mesh).at(k as f64 - 1.5, y, 0.0));
+        }
+        let mirror = Place::mesh(meshes[0]).at(1.5, y, 0.0).scaled(dvec3(-1.0, 1.0, 1.0));
+        glb.node(&format!("node{suffix}"), mirror);
+    }
+    glb.finish()
+}
+
+/// The normals of a round bump, +y up the image, as a normal map has them.
+fn bump(u: f64, v: f64) -> paint::Paint {
+    let at = dvec2(u - 0.5, 0.5 - v) * (0.9 / 0.35);
+    let slope = if at.length_squared() < 1.0 { at * 0.8 } else { DVec2::ZERO };
+    slope.extend((1.0 - slope.length_squared()).sqrt()).to_array().map(|c| (c * 0.5 + 0.5) * 255.0)
 }
