@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes, WritableImage,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes, LineOrder, WritableImage,
 };
 
 use super::png::write_gray16;
@@ -64,12 +64,15 @@ pub fn write_aov(path: &Path, aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<(), 
     }
 }
 
+/// Tiles in rows from the top: without an order each stands in the file when its thread is done, another way every time.
+const ENCODING: Encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
+
 fn write_exr(path: &Path, size: [u32; 2], channels: &[(&str, Vec<f32>)]) -> Result<(), InputError> {
     let channel = |(name, values): &(&str, Vec<f32>)| AnyChannel::new(*name, FlatSamples::F32(values.clone()));
     let layer = Layer::new(
         (size[0] as usize, size[1] as usize),
         LayerAttributes::default(),
-        Encoding::FAST_LOSSLESS,
+        ENCODING,
         AnyChannels::sort(channels.iter().map(channel).collect()),
     );
     let mut bytes = Cursor::new(Vec::new());
