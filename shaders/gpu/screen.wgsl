@@ -131,7 +131,7 @@ fn draw_edges(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let op = ops[step.x];
-    let reach = u32(floor(0.5 * op.b.x + 0.5));
+    let reach = u32(edges_reach(op));
     let columns = along(id.x, reach, frame.window_size.x);
     let lines = along(id.y, reach, frame.window_size.y);
     var covered = 0.0;

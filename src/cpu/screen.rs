@@ -126,7 +126,7 @@ impl Plane {
     fn draw_edges(&mut self, op: wgsl::Op, rank: usize) {
         let places = 0..self.colors.len();
         let marks: Vec<bool> = places.clone().into_par_iter().map(|place| self.has_mark(op, rank, place)).collect();
-        let reach = (0.5 * op.b.x + 0.5).floor() as u32;
+        let reach = wgsl::edges_reach(op) as u32;
         let drawn = |place: usize| {
             if !self.acts(place, rank) {
                 return self.colors[place];
