@@ -59,7 +59,7 @@ impl<'a> Renderer<'a> {
     /// pixels of each finished tile, from any thread.
     pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
         let size = self.plan.view.size;
-        if !self.plan.screen_steps().is_empty() {
+        if !self.plan.screen.is_empty() {
             let pixels = self.screen_filtered(done);
             return Frame { size, pixels, aovs: aovs.then(|| self.maps(&|_| ())) };
         }

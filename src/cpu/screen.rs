@@ -169,8 +169,8 @@ impl Plane {
 
 /// The sums of all samples' filtered colours for the pixels of a part of the planes' rectangle, row by row.
 pub fn filtered(plan: &Plan, mut planes: Vec<Plane>, part: &PixelRect) -> Vec<Vec4> {
-    for step in plan.screen_steps() {
-        planes.iter_mut().for_each(|plane| plane.run(plan, step));
+    for step in &plan.screen {
+        planes.iter_mut().for_each(|plane| plane.run(plan, *step));
     }
     let rows = part.min[1]..part.max[1];
     let pixels = rows.flat_map(|y| (part.min[0]..part.max[0]).map(move |x| (x, y)));

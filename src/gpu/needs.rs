@@ -98,7 +98,7 @@ impl Needs {
             quantities: plan.ops.iter().any(Op::reads_quantity),
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
             channels: plan.channels.len() as u32,
-            screen: plan.ops.iter().any(Op::is_of_screen),
+            screen: !plan.screen.is_empty(),
         }
     }
 

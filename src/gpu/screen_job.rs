@@ -47,7 +47,7 @@ impl ScreenJob {
         let stride =
             (size_of::<StepRecord>() as u32).next_multiple_of(device.limits().min_storage_buffer_offset_alignment);
         let (mut records, mut steps) = (Vec::new(), Vec::new());
-        for step in plan.screen_steps() {
+        for step in &plan.screen {
             let is_edges = plan.ops[step.op].kind == wgsl::OP_EDGES.0;
             steps.push((if is_edges { &pipelines.edges } else { &pipelines.means }.clone(), records.len() as u32));
             let record: StepRecord = [step.op as u32, step.rank as u32, 0, 0];
