@@ -149,11 +149,7 @@ impl<'a> Renderer<'a> {
                 let (block, ranks) = (Block { rect: tile, side }, self.ranks(&tile));
                 self.tracer.trace(&block, &ranks, scratch);
                 let samples = pixels_of(&tile).flat_map(|at| block.samples_of(at.into()));
-                let mut see = |sample| {
-                    let color = self.tracer.color(sample, &ranks, scratch);
-                    (color, self.tracer.report(sample, scratch).visible)
-                };
-                (tile, samples.map(&mut see).collect())
+                (tile, samples.map(|sample| self.tracer.seen(sample, &ranks, scratch)).collect())
             })
             .collect();
         for (tile, samples) in traced {
