@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use super::draws::Draw;
 use super::frame::Sample;
+use super::pipelines::Pipelines;
 use super::screen_job::ScreenJob;
 use super::targets::Targets;
 use super::tiles::{DISPATCH_WIDTH, Tiles};
-use super::{Needs, Room, Window};
+use super::{Room, Window};
 use crate::lens::PixelRect;
 
 /// A frame ready to be encoded, stage by stage.
 #[derive(Debug)]
 pub struct Job {
-    pub needs: Needs,
     pub samples: Vec<Sample>,
     pub window: Window,
     /// Counters of the room that each sample needs.
@@ -32,6 +32,8 @@ pub struct Job {
     pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub compute: ComputeSteps,
+    /// Those that give accounts of pixels.
+    pub accounts: Arc<Pipelines>,
     pub resolve: ResolvePipelines,
     /// Filters of the screen, where there are some.
     pub screen: Option<ScreenJob>,

@@ -135,20 +135,10 @@ impl Renderer {
     }
 
     /// What classifies and shades the fragment of a frame of one pixel, into so many bytes.
-    pub(super) fn explain_pass(
-        &self,
-        device: &wgpu::Device,
-        plan: &Plan,
-        job: &Job,
-        bytes: u64,
-    ) -> Result<ExplainPass, Error> {
+    pub(super) fn explain_pass(&self, device: &wgpu::Device, job: &Job, bytes: u64) -> Result<ExplainPass, Error> {
         let buffer = work_buffer(device, self.largest_buffer, "fragment of a pixel", bytes)?;
         let group = self.resolve_group(device, &job.targets, buffer.as_entire_binding());
-        Ok(ExplainPass {
-            pipeline: self.store.get(job.needs.for_accounts(), &custom_text(plan)).explain(&self.store),
-            group,
-            buffer,
-        })
+        Ok(ExplainPass { pipeline: job.accounts.explain(&self.store), group, buffer })
     }
 
     fn prepare_frame(
@@ -204,6 +194,7 @@ impl Renderer {
         // Compiled side by side where they are new.
         let (store, custom, none) = (&self.store, &custom_text(plan), &Arc::from(""));
         let unshaded = store.get(needs.without_shading(), none);
+        let accounts = store.get(needs.for_accounts(), custom);
         let ((draws, caps, layers), (aov, resolve)) = rayon::join(
             || {
                 let program = program_of(options.engine, after.is_some());
@@ -217,7 +208,7 @@ impl Renderer {
             },
             || {
                 let resolve = |needs| store.get(needs, custom).resolve(store);
-                let aov = (options.aovs || needs.screen).then(|| store.get(needs.for_accounts(), custom).aov(store));
+                let aov = (options.aovs || needs.screen).then(|| accounts.aov(store));
                 let of_sample = || ResolvePipelines::Sample(store.get(needs, custom).resolve_sample(store));
                 let of_tiles = || {
                     let (inside, outside) = rayon::join(|| resolve(needs), || resolve(needs.outside(plan)));
@@ -227,7 +218,6 @@ impl Renderer {
             },
         );
         Ok(Job {
-            needs,
             samples,
             window,
             needed,
@@ -243,6 +233,7 @@ impl Renderer {
             indices: self.scene.indices.clone(),
             items,
             compute: ComputeSteps { layers, aov },
+            accounts,
             resolve,
             screen,
             targets,
