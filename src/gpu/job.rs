@@ -67,8 +67,6 @@ pub struct Groups {
     pub visibility: wgpu::BindGroup,
     pub resolve: wgpu::BindGroup,
     pub maps: Option<wgpu::BindGroup>,
-    /// What is visible at each sample, for filters of the screen.
-    pub screen_maps: Option<wgpu::BindGroup>,
 }
 
 /// What composites pixels.
@@ -76,7 +74,7 @@ pub struct Groups {
 pub enum ResolvePipelines {
     /// Into the picture: those of tiles that lenses touch, and those of all others.
     Tiles { inside: wgpu::RenderPipeline, outside: wgpu::RenderPipeline },
-    /// All of one sample into a buffer, for filters of the screen.
+    /// One sample into a buffer, for filters of the screen.
     Sample(wgpu::ComputePipeline),
 }
 
@@ -178,20 +176,14 @@ impl Job {
             }
             ResolvePipelines::Sample(pipeline) => {
                 self.encode_pixels(encoder, sample, pipeline, &self.groups.resolve);
-                self.encode_screen(encoder, sample, target);
+                if let Some(screen) = &self.screen {
+                    screen.encode(encoder, &self.groups.plan, self.offset(sample, 0), &self.window, target);
+                }
             }
         }
         if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
             self.encode_pixels(encoder, sample, pipeline, group);
         }
-    }
-
-    fn encode_screen(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, target: &wgpu::TextureView) {
-        let (Some(screen), Some(group)) = (&self.screen, &self.groups.screen_maps) else { return };
-        if let Some(pipeline) = &self.compute.aov {
-            self.encode_pixels(encoder, sample, pipeline, group);
-        }
-        screen.encode(encoder, &self.groups.plan, self.offset(sample, 0), &self.window, target);
     }
 
     /// Classifies and shades the fragment that a sample has drawn at the window's one pixel.

@@ -208,6 +208,7 @@ impl Needs {
             ("COVERAGE_FILTERS", self.stages[2]),
             ("QUANTITIES", self.quantities),
             ("HIDDEN_LINES", self.hidden_lines),
+            ("SCREEN", self.screen),
         ];
         let filters = FILTERS.iter().enumerate().map(|(number, filter)| {
             let (name, has) = (filter.name.to_uppercase(), self.filters >> number & 1 != 0);

@@ -44,10 +44,10 @@ impl Module {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
             Module::Visibility => &[&[LISTS, VISIBILITY], VOLUMES, CLASSIFYING],
             Module::Caps => &[&[LISTS, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
-            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, RESOLVE]],
+            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, SCREEN_SAMPLE, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
-            Module::Screen => &[&[FINISH, SCREEN]],
+            Module::Screen => &[&[SET, FINISH, SCREEN_SAMPLE, SCREEN]],
         }
     }
 }
@@ -87,6 +87,7 @@ const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const CUSTOM: &str = include_str!("../../shaders/gpu/custom.wgsl");
 const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
+const SCREEN_SAMPLE: &str = include_str!("../../shaders/gpu/screen_sample.wgsl");
 const SCREEN: &str = include_str!("../../shaders/gpu/screen.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");
