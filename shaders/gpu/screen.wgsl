@@ -19,6 +19,19 @@ fn acts(at: u32) -> bool {
     return samples[at].item != 0u && (samples[at].stack.words[step.y / 32u] >> (step.y % 32u) & 1u) != 0u;
 }
 
+// Colours a pixel on which the filter acts, which fades in where its lens is soft.
+fn put(pixel: vec2u, filtered: vec4f) {
+    let at = place(pixel);
+    if !SOFT {
+        samples[at].color = filtered;
+        return;
+    }
+    let ray = pixel_ray(pixel);
+    let position = ray.origin + ray.direction * samples[at].depth;
+    let amount = soft_amount(step.y, samples[at].item - 1u, position);
+    samples[at].color = mix(samples[at].color, filtered, amount);
+}
+
 // Pixels from one up to so far along an axis, within the window: first and last.
 fn along(at: u32, reach: u32, size: u32) -> vec2u {
     return vec2u(at - min(at, reach), min(at + reach, size - 1u));
@@ -62,7 +75,7 @@ fn sum_columns(@builtin(global_invocation_id) id: vec3u) {
         sum += rows[other] * weight;
         all += marks[other] * weight;
     }
-    samples[place(id.xy)].color = sum / all;
+    put(id.xy, sum / all);
 }
 
 fn seen_at(pixel: vec2u) -> Seen {
@@ -138,7 +151,7 @@ fn draw_edges(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    samples[place(id.xy)].color = edges_drawn(op, samples[place(id.xy)].color, covered);
+    put(id.xy, edges_drawn(op, samples[place(id.xy)].color, covered));
 }
 
 // One triangle over the whole window.

@@ -146,9 +146,10 @@ impl Needs {
         }
     }
 
-    /// The same for passes over the finished picture, which know nothing but sets.
+    /// The same for passes over the finished picture, which know nothing but sets and, where a lens is soft, how deep
+    /// inside it something is.
     pub fn for_screen(self) -> Self {
-        Self {
+        let sets = Self {
             part_words: 1,
             lenses: true,
             layers: false,
@@ -156,11 +157,17 @@ impl Needs {
             compounds: false,
             forms: [false; 4],
             movers: false,
+            caps: false,
             soft: false,
             translucent: false,
             channels: 0,
             ..self.without_shading()
+        };
+        if !self.soft {
+            return sets;
         }
+        let Self { part_words, compounds, forms, movers, .. } = self;
+        Self { part_words, compounds, forms, movers, soft: true, ..sets }
     }
 
     /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything.

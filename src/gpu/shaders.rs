@@ -47,7 +47,7 @@ impl Module {
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, SCREEN_SAMPLE, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
-            Module::Screen => &[&[SET, FINISH, SCREEN_SAMPLE, SCREEN]],
+            Module::Screen => &[&[SET, STEPS, SOFT], VOLUMES, &[FINISH, SCREEN_SAMPLE, SCREEN]],
         }
     }
 }
@@ -55,7 +55,7 @@ impl Module {
 /// Where rays cross lens volumes.
 const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
 /// Who acts on a fragment.
-const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
+const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, STEPS, MOVED, WALK];
 /// What a fragment looks like.
 const SHADING: &[&str] = &[CLOSING, BOUNDARY, CAPS, TEXTURE, SOFT, STACK, CUSTOM, SHADE, FRAGMENTS];
 
@@ -67,6 +67,7 @@ const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
 const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
 const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
 const ASKED: &str = include_str!("../../shaders/gpu/asked.wgsl");
+const STEPS: &str = include_str!("../../shaders/gpu/steps.wgsl");
 const MOVED: &str = include_str!("../../shaders/gpu/moved.wgsl");
 const WALK: &str = include_str!("../../shaders/gpu/walk.wgsl");
 const SOFT: &str = include_str!("../../shaders/gpu/soft.wgsl");

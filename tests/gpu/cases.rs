@@ -24,6 +24,7 @@ pub const ALL: &[(&str, Test)] = &[
     ("sixty_four_sheets", crate::panes::sixty_four_sheets),
     ("random_stacks", crate::stacks::random_stacks),
     ("filters_of_the_screen", filters_of_the_screen),
+    ("soft_filters_of_the_screen", soft_filters_of_the_screen),
     ("kept_targets_of_the_screen", kept_targets_of_the_screen),
     ("too_small_a_device", too_small_a_device),
     ("run_to_run", run_to_run),
@@ -181,6 +182,30 @@ fn filters_of_the_screen(device: &Headless) -> Result<(), String> {
     for (camera, samples) in [(PERSPECTIVE, 4), (ORTHOGRAPHIC, 1)] {
         let (scene, plan) = planned(SIZE, samples, camera, &lenses.concat());
         check(device, &scene, &plan)?;
+    }
+    Ok(())
+}
+
+/// They fade in where their lenses are soft: by the point that is shown, by where a magnifier takes it from, and by the
+/// whole object.
+fn soft_filters_of_the_screen(device: &Headless) -> Result<(), String> {
+    let lens = |name: &str, x: f64, rest: &str| {
+        let shape = format!("shape.sphere = {{ center = [{x}, 0.1, 0.2], radius = 0.5 }}");
+        format!("[[lens]]\nname = \"{name}\"\n{shape}\nglass = false\n{rest}\n")
+    };
+    let lenses = [
+        lens("a", -0.4, "soft = 0.3\nfilters = [\"invert\", { blur = { radius = 4 } }]"),
+        lens("b", 0.3, "soft = 0.4\nby = \"object\"\nfilters = [{ pixelate = { radius = 3 } }]"),
+        lens("c", 0.2, "soft = 0.2\nfilters = [{ edges = { color = \"red\", width = 4 } }]"),
+        lens("d", 0.0, "filters = [{ magnify = { factor = 1.5 } }]"),
+    ];
+    for (camera, samples) in [(PERSPECTIVE, 4), (ORTHOGRAPHIC, 1)] {
+        let (scene, plan) = planned(SIZE, samples, camera, &lenses.concat());
+        check(device, &scene, &plan)?;
+        let (_, hard) = planned(SIZE, samples, camera, &lenses.concat().replace("soft", "priority = 0\n# "));
+        if agree(&on_cpu(&scene, &plan), &on_cpu(&scene, &hard)).is_ok() {
+            return Err("lenses that are not soft look the same".into());
+        }
     }
     Ok(())
 }
