@@ -50,6 +50,24 @@ pub struct Survivor {
     pub coverage: f32,
 }
 
+impl Survivor {
+    fn shows(&self) -> bool {
+        self.opacity * self.coverage > 0.0
+    }
+
+    /// Takes it, after all nearer ones of its ray, for the visible fragment where it is; false where it ends the ray.
+    pub(crate) fn see(&self, normal: Vec3, visible: &mut Option<Visible>) -> bool {
+        if !self.shows() || self.coverage < 0.5 {
+            return true;
+        }
+        let ends = self.opacity >= OPAQUE_FROM.0;
+        if ends || visible.is_none() {
+            *visible = Some(Visible { fragment: self.fragment, normal });
+        }
+        !ends
+    }
+}
+
 /// A fragment that lenses erase, replace or move elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Removed {
@@ -74,15 +92,10 @@ impl PixelReport {
     /// Takes the next fragment, nearest first, that the lenses leave with this opacity and coverage; false where it
     /// ends the ray.
     pub(crate) fn push(&mut self, survivor: Survivor, normal: Vec3) -> bool {
-        let Survivor { fragment, opacity, coverage } = survivor;
-        if opacity * coverage <= 0.0 {
+        if !survivor.shows() {
             return true;
         }
         self.fragments.push(survivor);
-        let ends = coverage >= 0.5 && opacity >= OPAQUE_FROM.0;
-        if ends || (coverage >= 0.5 && self.visible.is_none()) {
-            self.visible = Some(Visible { fragment, normal });
-        }
-        !ends
+        survivor.see(normal, &mut self.visible)
     }
 }

@@ -3,7 +3,7 @@
 
 use std::mem::{offset_of, size_of};
 
-use lenspeel::gpu::layout::{FrameRecord, ItemRecord, LensRecord, PartRecord, StepRecord, TextureInfo};
+use lenspeel::gpu::layout::{FrameRecord, ItemRecord, LensRecord, PartRecord, StepRecord, TextureInfo, sample_bytes};
 use lenspeel::gpu::{Module, Needs, source};
 use lenspeel::plan::{GlassRecord, LightRecord, Op};
 use lenspeel::scene::{MaterialRecord, TextureSlot};
@@ -293,6 +293,14 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
     assert_eq!(size("Part"), size_of::<PartRecord>());
     same_layout!(&module, "TextureInfo", TextureInfo, [wrap_u, wrap_v, filter_bits, srgb, level_count, levels]);
     assert_eq!(size("TextureInfo"), size_of::<TextureInfo>());
+}
+
+#[test]
+fn samples_of_the_screen_have_the_size_that_is_made_room_for() {
+    for needs in NEEDS {
+        let wgsl = wgsl_layout(&parsed(Module::Screen, needs), "ScreenSample").1;
+        assert_eq!(u64::from(wgsl), sample_bytes(needs.set_words));
+    }
 }
 
 #[test]

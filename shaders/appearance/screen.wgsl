@@ -8,8 +8,8 @@ fn screen_reach(op: Op) -> f32 {
     if op.kind == OP_PIXELATE {
         return pixelate_side(op) - 1.0;
     }
-    // Half a line, and the neighbour that makes it one.
-    return floor(0.5 * op.b.x + 0.5) + 1.0;
+    // A line, and the neighbour that makes it one.
+    return edges_reach(op) + 1.0;
 }
 
 // The weight of another pixel of the same row or column in a filter that takes means.

@@ -21,6 +21,11 @@ const BORDER_OF_REGION: u32 = 1u;
 // The filter does not act on the neighbour.
 const BORDER_OF_FILTER: u32 = 2u;
 
+// How far from the pixel that it lies on a line is drawn, in pixels.
+fn edges_reach(op: Op) -> f32 {
+    return floor(0.5 * op.b.x + 0.5);
+}
+
 // Whether a line lies on the pixel that sees `p` because of a neighbour that sees `q`. `comes_after`: the neighbour is to
 // the right or below, so that of two pixels one has the line.
 fn edges_mark(op: Op, p: Seen, q: Seen, border: u32, comes_after: bool) -> bool {

@@ -15,9 +15,7 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
     let tile = tile_at(pixel);
     let opaque = opaque_at(pixel, ray);
     var last = Pick(-FAR_AWAY, 0u, 0u, 0u, false);
-    var visible: Fragment;
-    var normal = vec3f(0.0);
-    var found = 0u;
+    var seen: Visible;
     var passed = Set();
     loop {
         let pick = next_fragment(pixel, opaque, last);
@@ -29,22 +27,16 @@ fn aovs(@builtin(global_invocation_id) id: vec3u) {
         let fragment = met.fragment;
         let shaded = shade(fragment, met.at, ray, passed);
         passed = also_passed(passed, fragment, shaded);
-        if shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
-            continue;
-        }
-        let ends = shaded.opacity >= OPAQUE_FROM;
-        if ends || found == 0u {
-            visible = fragment;
-            normal = shaded.normal;
-            found = 1u;
-        }
-        if ends {
+        seen = and_seen(seen, fragment, shaded);
+        if seen.ends {
             break;
         }
     }
+    let visible = seen.fragment;
+    let normal = seen.normal;
     let at = (pixel.y * frame.window_size.x + pixel.x) * MAP_WORDS;
     maps[at] = layer_count(tile, pixel);
-    maps[at + 1u] = found;
+    maps[at + 1u] = u32(seen.found);
     maps[at + 2u] = visible.item;
     maps[at + 3u] = visible.triangle;
     if !is_cap(visible.triangle) {

@@ -392,3 +392,11 @@ fn pixel_ray(pixel: vec2u) -> PixelRay {
     }
     return PixelRay(moving, frame.ray_fixed.xyz, frame.ray_dx.xyz, frame.ray_dy.xyz, still, still, at);
 }
+
+fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
+    let size = length(v);
+    if size > 1e-30 {
+        return v / size;
+    }
+    return other;
+}

@@ -84,6 +84,27 @@ fn also_passed(passed: Set, fragment: Fragment, shaded: ShadedFragment) -> Set {
     return all;
 }
 
+// The visible fragment (SEMANTICS 6.4) of those that a ray has met so far, nearest first.
+struct Visible {
+    found: bool,
+    // It is opaque.
+    ends: bool,
+    fragment: Fragment,
+    normal: vec3f,
+}
+
+// The same after one more fragment.
+fn and_seen(before: Visible, fragment: Fragment, shaded: ShadedFragment) -> Visible {
+    if before.ends || shaded.opacity * shaded.coverage <= 0.0 || shaded.coverage < 0.5 {
+        return before;
+    }
+    let ends = shaded.opacity >= OPAQUE_FROM;
+    if before.found && !ends {
+        return before;
+    }
+    return Visible(true, ends, fragment, shaded.normal);
+}
+
 // A fragment, and where the pixel's ray meets it.
 struct Met {
     fragment: Fragment,
@@ -102,7 +123,7 @@ fn met_at(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Met {
 
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {
     // Without filters that act on what is seen nobody asks.
-    if !LENSES || !(SURFACE_FILTERS || COLOR_FILTERS || COVERAGE_FILTERS) {
+    if !LENSES || !(SURFACE_FILTERS || COLOR_FILTERS || COVERAGE_FILTERS || SCREEN) {
         return Fragment(pick.item, pick.triangle, pick.depth, Set(), Set());
     }
     let verdict = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth));

@@ -1,27 +1,35 @@
 // Filters of the screen: what they do to one sample of all pixels of a window. Twin of `cpu/screen.rs`.
 
-// What is visible at each pixel, as `aov.wgsl` writes it.
-@group(2) @binding(0) var<storage, read> maps: array<u32>;
-// Premultiplied linear colours of the sample.
-@group(2) @binding(1) var<storage, read_write> colors: array<vec4f>;
+// Of each pixel.
+@group(2) @binding(0) var<storage, read_write> samples: array<ScreenSample>;
 // Sums along rows, and of their weights.
-@group(2) @binding(2) var<storage, read_write> rows: array<vec4f>;
+@group(2) @binding(1) var<storage, read_write> rows: array<vec4f>;
 // Weights of those sums; or 1 where a line lies.
-@group(2) @binding(3) var<storage, read_write> marks: array<f32>;
+@group(2) @binding(2) var<storage, read_write> marks: array<f32>;
 // The filter, and the rank of its lens or rule.
-@group(2) @binding(4) var<storage, read> step: vec4u;
+@group(2) @binding(3) var<storage, read> step: vec4u;
 // Colours summed over the samples.
-@group(2) @binding(5) var<storage, read_write> accumulated: array<vec4f>;
-
-const MAP_WORDS: u32 = 8u + 2u * WORDS;
+@group(2) @binding(4) var<storage, read_write> accumulated: array<vec4f>;
 
 fn place(pixel: vec2u) -> u32 {
     return pixel.y * frame.window_size.x + pixel.x;
 }
 
 fn acts(at: u32) -> bool {
-    let word = maps[at * MAP_WORDS + 8u + WORDS + step.y / 32u];
-    return maps[at * MAP_WORDS + 1u] != 0u && (word >> (step.y % 32u) & 1u) != 0u;
+    return samples[at].item != 0u && (samples[at].stack.words[step.y / 32u] >> (step.y % 32u) & 1u) != 0u;
+}
+
+// Colours a pixel on which the filter acts, which fades in where its lens is soft.
+fn put(pixel: vec2u, filtered: vec4f) {
+    let at = place(pixel);
+    if !SOFT {
+        samples[at].color = filtered;
+        return;
+    }
+    let ray = pixel_ray(pixel);
+    let position = ray.origin + ray.direction * samples[at].depth;
+    let amount = soft_amount(step.y, samples[at].item - 1u, position);
+    samples[at].color = mix(samples[at].color, filtered, amount);
 }
 
 // Pixels from one up to so far along an axis, within the window: first and last.
@@ -43,7 +51,7 @@ fn sum_rows(@builtin(global_invocation_id) id: vec3u) {
         let other = place(vec2u(x, id.y));
         if acts(other) {
             let weight = mean_weight(op, own, f32(frame.window_min.x + x));
-            sum += colors[other] * weight;
+            sum += samples[other].color * weight;
             all += weight;
         }
     }
@@ -67,21 +75,21 @@ fn sum_columns(@builtin(global_invocation_id) id: vec3u) {
         sum += rows[other] * weight;
         all += marks[other] * weight;
     }
-    colors[place(id.xy)] = sum / all;
+    put(id.xy, sum / all);
 }
 
 fn seen_at(pixel: vec2u) -> Seen {
-    let at = place(pixel) * MAP_WORDS;
-    let depth = bitcast<f32>(maps[at + 4u]);
-    let normal = vec3f(bitcast<f32>(maps[at + 5u]), bitcast<f32>(maps[at + 6u]), bitcast<f32>(maps[at + 7u]));
+    let at = place(pixel);
+    let depth = samples[at].depth;
     let ray = pixel_ray(pixel);
     let span = 2.0 / frame.picture_scale * select(1.0, depth, frame.perspective != 0u);
-    return Seen(maps[at + 1u], depth, ray.origin + ray.direction * depth, normal, span);
+    let found = min(samples[at].item, 1u);
+    return Seen(found, depth, ray.origin + ray.direction * depth, samples[at].normal, span);
 }
 
 fn is_other_region(a: u32, b: u32) -> bool {
     for (var w = 0u; w < WORDS; w += 1u) {
-        if maps[a * MAP_WORDS + 8u + w] != maps[b * MAP_WORDS + 8u + w] {
+        if samples[a].around.words[w] != samples[b].around.words[w] {
             return true;
         }
     }
@@ -131,7 +139,7 @@ fn draw_edges(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let op = ops[step.x];
-    let reach = u32(floor(0.5 * op.b.x + 0.5));
+    let reach = u32(edges_reach(op));
     let columns = along(id.x, reach, frame.window_size.x);
     let lines = along(id.y, reach, frame.window_size.y);
     var covered = 0.0;
@@ -143,7 +151,7 @@ fn draw_edges(@builtin(global_invocation_id) id: vec3u) {
             }
         }
     }
-    colors[place(id.xy)] = edges_drawn(op, colors[place(id.xy)], covered);
+    put(id.xy, edges_drawn(op, samples[place(id.xy)].color, covered));
 }
 
 // One triangle over the whole window.
@@ -157,7 +165,7 @@ fn window_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f
 @fragment
 fn finish(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let at = place(vec2u(position.xy));
-    var sum = colors[at];
+    var sum = samples[at].color;
     if frame.samples > 1u {
         if frame.sample_index > 0u {
             sum += accumulated[at];

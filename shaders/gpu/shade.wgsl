@@ -68,14 +68,6 @@ fn slot_uv(item: u32, corners: vec3u, slot: TextureSlot) -> CornerUv {
     );
 }
 
-fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
-    let size = length(v);
-    if size > 1e-30 {
-        return v / size;
-    }
-    return other;
-}
-
 // The normal of the material, given the texel of its normal map.
 fn shading_normal(item: u32, t: Triangle, weights: vec3f, geometric: vec3f, view: vec3f, texel: vec3f) -> vec3f {
     var normal = geometric;

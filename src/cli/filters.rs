@@ -81,7 +81,7 @@ fn section(row: &FilterRow) -> String {
     let moves = if row.moves { ", moves content" } else { "" };
     let mut text = format!("## `{name}`\n\n*{kind}{moves}*: {help}{}.\n", waits(row.built));
     if row.built {
-        text += &format!("\n![{name}]({})\n", picture(name));
+        text += &format!("\n![{name}]({})\n", row.picture());
     }
     text += &format!("\n{}\n", documentation(row));
     if !row.params.is_empty() {
@@ -92,16 +92,4 @@ fn section(row: &FilterRow) -> String {
         text += &format!("| `{name}` | {kind} | {default} | {help}{} |\n", waits(*built || !row.built));
     }
     text
-}
-
-/// The picture that shows a filter best, from the folder of the page.
-fn picture(name: &str) -> String {
-    match name {
-        "show" => "show-alternate.png".into(),
-        "material" => "material-all.png".into(),
-        "texture" => "texture-box.png".into(),
-        "magnify" | "displace" => format!("../movers/{name}.png"),
-        "wgsl" => "../wgsl/stripes.png".into(),
-        _ => format!("{name}.png"),
-    }
 }

@@ -15,7 +15,7 @@ use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
 use crate::lens::{PixelRect, RayLayers};
-use crate::pixel::{Fragment, PixelReport, Survivor, cap_maker};
+use crate::pixel::{Fragment, PixelReport, Survivor, Visible, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
 use crate::view::Ray;
@@ -207,33 +207,45 @@ impl<'a> Tracer<'a> {
 
     /// The premultiplied linear colour of a sample of the block traced last, without background. `ranks` as there.
     pub fn color(&self, sample: usize, ranks: &[usize], scratch: &mut Scratch) -> Vec4 {
-        let Scratch { rays, listed, glass, .. } = scratch;
-        let one = &rays[sample];
-        let pixel = self.pixel_ray(&one.ray, one.at);
-        glass.find(self.plan, ranks, &one.ray, &pixel);
-        self.composite(fragments(sample, one, listed), glass, &one.ray, &pixel)
+        self.composite(sample, ranks, scratch, |_, _| ())
     }
 
-    fn composite<'f>(
+    /// The same, and what is visible at the sample.
+    pub fn seen(&self, sample: usize, ranks: &[usize], scratch: &mut Scratch) -> (Vec4, Option<Visible>) {
+        let (mut visible, mut goes_on) = (None, true);
+        let color = self.composite(sample, ranks, scratch, |survivor, normal| {
+            goes_on = goes_on && survivor.see(normal, &mut visible);
+        });
+        (color, visible)
+    }
+
+    /// `meet` is told of each fragment, nearest first, and of its normal.
+    fn composite(
         &self,
-        fragments: impl Iterator<Item = &'f Fragment>,
-        surfaces: &GlassHits,
-        ray: &Ray,
-        pixel: &wgsl::PixelRay,
+        sample: usize,
+        ranks: &[usize],
+        scratch: &mut Scratch,
+        mut meet: impl FnMut(Survivor, Vec3),
     ) -> Vec4 {
+        let Scratch { rays, listed, glass: surfaces, .. } = scratch;
+        let one = &rays[sample];
+        let ray = &one.ray;
+        let pixel = &self.pixel_ray(ray, one.at);
+        surfaces.find(self.plan, ranks, ray, pixel);
         let mut front = Vec4::ZERO;
         let mut passed = LensSet::EMPTY;
         let mut glass = surfaces.hits.iter().peekable();
-        for fragment in fragments {
+        for fragment in fragments(sample, one, listed) {
             while let Some(hit) = glass.next_if(|hit| hit.depth < f64::from(fragment.depth)) {
                 front = over(front, hit.color.truncate(), hit.color.w);
             }
-            let shaded = self.shader.shade(fragment, pixel, passed);
-            if shaded.opacity > 0.0 {
+            let Shaded { color, opacity, coverage, normal } = self.shader.shade(fragment, pixel, passed);
+            if opacity > 0.0 {
                 passed = passed | fragment.region.stack;
             }
-            let opacity = shaded.opacity * shaded.coverage;
-            let color = self.with_contact_lines(shaded.color, fragment, &surfaces.contacts, ray, pixel);
+            meet(Survivor { fragment: *fragment, opacity, coverage }, normal);
+            let opacity = opacity * coverage;
+            let color = self.with_contact_lines(color, fragment, &surfaces.contacts, ray, pixel);
             front = over(front, color, opacity);
             if opacity >= wgsl::OPAQUE_FROM.0 {
                 return front;

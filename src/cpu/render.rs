@@ -59,7 +59,7 @@ impl<'a> Renderer<'a> {
     /// pixels of each finished tile, from any thread.
     pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
         let size = self.plan.view.size;
-        if !self.plan.screen_steps().is_empty() {
+        if !self.plan.screen.is_empty() {
             let pixels = self.screen_filtered(done);
             return Frame { size, pixels, aovs: aovs.then(|| self.maps(&|_| ())) };
         }
@@ -149,11 +149,7 @@ impl<'a> Renderer<'a> {
                 let (block, ranks) = (Block { rect: tile, side }, self.ranks(&tile));
                 self.tracer.trace(&block, &ranks, scratch);
                 let samples = pixels_of(&tile).flat_map(|at| block.samples_of(at.into()));
-                let mut see = |sample| {
-                    let color = self.tracer.color(sample, &ranks, scratch);
-                    (color, self.tracer.report(sample, scratch).visible)
-                };
-                (tile, samples.map(&mut see).collect())
+                (tile, samples.map(|sample| self.tracer.seen(sample, &ranks, scratch)).collect())
             })
             .collect();
         for (tile, samples) in traced {

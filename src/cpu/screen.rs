@@ -3,11 +3,12 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
-use super::convert::{d3, g4, v3, v4};
+use super::convert::{d3, g3, g4, v3, v4};
+use super::shade::soft_amount;
 use crate::appearance as wgsl;
 use crate::lens::{LensSet, PixelRect};
 use crate::pixel::Visible;
-use crate::plan::{Plan, ScreenStep};
+use crate::plan::{Plan, Region, ScreenStep};
 use crate::view::Projection;
 
 /// What one sample of each pixel of a rectangle sees.
@@ -24,6 +25,8 @@ pub struct Plane {
 #[derive(Clone, Copy)]
 struct Point {
     seen: wgsl::Seen,
+    /// Into [`Plan::instances`].
+    instance: u32,
     /// The lenses around it, and those that act.
     set: LensSet,
     stack: LensSet,
@@ -35,7 +38,7 @@ impl Plane {
         let along = |number: u32| (f64::from(number) + 0.5) / f64::from(side);
         let zero = v3(glam::Vec3::ZERO);
         let seen = wgsl::Seen { found: 0, depth: 0.0, position: zero, normal: zero, span: 0.0 };
-        let nothing = Point { seen, set: LensSet::EMPTY, stack: LensSet::EMPTY };
+        let nothing = Point { seen, instance: 0, set: LensSet::EMPTY, stack: LensSet::EMPTY };
         let count = rect.area() as usize;
         let at = [along(sample % side), along(sample / side)];
         Self { rect, at, colors: vec![Vec4::ZERO; count], seen: vec![nothing; count] }
@@ -54,7 +57,8 @@ impl Plane {
         };
         let position = d3(ray.at(depth) - view.eye);
         let seen = wgsl::Seen { found: 1, depth: fragment.depth, position, normal: v3(*normal), span: span as f32 };
-        self.seen[at] = Point { seen, set: fragment.region.set, stack: fragment.region.stack };
+        let Region { set, stack } = fragment.region;
+        self.seen[at] = Point { seen, instance: fragment.instance, set, stack };
     }
 
     fn width(&self) -> usize {
@@ -90,14 +94,27 @@ impl Plane {
     fn run(&mut self, plan: &Plan, step: ScreenStep) {
         let op = &plan.ops[step.op];
         if op.kind == wgsl::OP_EDGES.0 {
-            self.draw_edges(op.shader(), step.rank);
+            self.draw_edges(plan, op.shader(), step.rank);
         } else {
-            self.take_means(op.shader(), op.screen_reach(), step.rank);
+            self.take_means(plan, op.shader(), op.screen_reach(), step.rank);
         }
     }
 
+    /// Colours all pixels on which a filter acts, which fades in where its lens is soft.
+    fn put_all(&mut self, plan: &Plan, rank: usize, filtered: impl Fn(&Self, usize) -> Vec4 + Sync) {
+        let color = |place: usize| {
+            if !self.acts(place, rank) {
+                return self.colors[place];
+            }
+            let Point { seen, instance, .. } = &self.seen[place];
+            let amount = soft_amount(plan, rank, &plan.instances[*instance as usize], g3(seen.position));
+            self.colors[place].lerp(filtered(self, place), amount)
+        };
+        self.colors = (0..self.colors.len()).into_par_iter().map(color).collect();
+    }
+
     /// Each pixel of the lens as the weighted mean of those around it: sums along rows, then of these along columns.
-    fn take_means(&mut self, op: wgsl::Op, reach: u32, rank: usize) {
+    fn take_means(&mut self, plan: &Plan, op: wgsl::Op, reach: u32, rank: usize) {
         let places = 0..self.colors.len();
         let weight = |at: u32, other: u32| wgsl::mean_weight(op, at as f32, other as f32);
         let row = |place: usize| {
@@ -108,40 +125,32 @@ impl Plane {
                 (sum + self.colors[other] * weight, all + weight)
             })
         };
-        let rows: Vec<(Vec4, f32)> = places.clone().into_par_iter().map(row).collect();
-        let mean = |place: usize| {
-            if !self.acts(place, rank) {
-                return self.colors[place];
-            }
-            let own = self.pixel(place)[1];
-            let (sum, all) = self.along(place, 1, reach).fold((Vec4::ZERO, 0.0), |(sum, all), (number, other)| {
+        let rows: Vec<(Vec4, f32)> = places.into_par_iter().map(row).collect();
+        self.put_all(plan, rank, |plane, place| {
+            let own = plane.pixel(place)[1];
+            let (sum, all) = plane.along(place, 1, reach).fold((Vec4::ZERO, 0.0), |(sum, all), (number, other)| {
                 let weight = weight(own, number);
                 (sum + rows[other].0 * weight, all + rows[other].1 * weight)
             });
             sum / all
-        };
-        self.colors = places.into_par_iter().map(mean).collect();
+        });
     }
 
-    fn draw_edges(&mut self, op: wgsl::Op, rank: usize) {
+    fn draw_edges(&mut self, plan: &Plan, op: wgsl::Op, rank: usize) {
         let places = 0..self.colors.len();
-        let marks: Vec<bool> = places.clone().into_par_iter().map(|place| self.has_mark(op, rank, place)).collect();
-        let reach = (0.5 * op.b.x + 0.5).floor() as u32;
-        let drawn = |place: usize| {
-            if !self.acts(place, rank) {
-                return self.colors[place];
-            }
-            let [x, y] = self.pixel(place);
+        let marks: Vec<bool> = places.into_par_iter().map(|place| self.has_mark(op, rank, place)).collect();
+        let reach = wgsl::edges_reach(op) as u32;
+        self.put_all(plan, rank, |plane, place| {
+            let [x, y] = plane.pixel(place);
             let mut covered: f32 = 0.0;
-            for (row, of_row) in self.along(place, 1, reach) {
-                for (column, _) in self.along(of_row, 0, reach).filter(|(_, other)| marks[*other]) {
+            for (row, of_row) in plane.along(place, 1, reach) {
+                for (column, _) in plane.along(of_row, 0, reach).filter(|(_, other)| marks[*other]) {
                     let [dx, dy] = [column as f32 - x as f32, row as f32 - y as f32];
                     covered = covered.max(wgsl::line_coverage((dx * dx + dy * dy).sqrt(), op.b.x));
                 }
             }
-            g4(wgsl::edges_drawn(op, v4(self.colors[place]), covered))
-        };
-        self.colors = places.into_par_iter().map(drawn).collect();
+            g4(wgsl::edges_drawn(op, v4(plane.colors[place]), covered))
+        });
     }
 
     /// Whether a line lies on a pixel.
@@ -169,8 +178,8 @@ impl Plane {
 
 /// The sums of all samples' filtered colours for the pixels of a part of the planes' rectangle, row by row.
 pub fn filtered(plan: &Plan, mut planes: Vec<Plane>, part: &PixelRect) -> Vec<Vec4> {
-    for step in plan.screen_steps() {
-        planes.iter_mut().for_each(|plane| plane.run(plan, step));
+    for step in &plan.screen {
+        planes.iter_mut().for_each(|plane| plane.run(plan, *step));
     }
     let rows = part.min[1]..part.max[1];
     let pixels = rows.flat_map(|y| (part.min[0]..part.max[0]).map(move |x| (x, y)));

@@ -162,7 +162,7 @@ impl<'a> Shader<'a> {
         let Hit { instance, position, normal, .. } = *hit;
         let ops = || {
             stack.iter().flat_map(|rank| {
-                let amount = self.amount(rank, instance, position);
+                let amount = soft_amount(self.plan, rank, instance, position);
                 self.ops[self.plan.ops_of(rank)].iter().map(move |op| (rank, op, amount))
             })
         };
@@ -199,19 +199,6 @@ impl<'a> Shader<'a> {
     pub fn geometric_normal(&self, fragment: &Fragment) -> Vec3 {
         let item = &self.plan.items[self.plan.instances[fragment.instance as usize].item];
         self.corners(item, fragment).normal()
-    }
-
-    /// How much a lens's appearance filters count on a fragment shown at `position` (around the eye).
-    fn amount(&self, rank: usize, instance: &Instance, position: Vec3) -> f32 {
-        let Some(lens) = self.plan.lenses.get(rank).filter(|lens| lens.soft > 0.0) else { return 1.0 };
-        let asked = match lens.by {
-            By::Pixel => {
-                let shown = position.as_dvec3() + self.plan.view.eye;
-                instance.source_from_shown(rank, false).transform_point3(shown)
-            }
-            By::Object => self.plan.items[instance.item].center,
-        };
-        (lens.volume.depth_inside(asked) / lens.soft).clamp(0.0, 1.0) as f32
     }
 
     fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'a> {
@@ -403,4 +390,17 @@ impl<'a> Shader<'a> {
         let ambient = g3(wgsl::ambient_light(surface, self.plan.lighting.ambient, v3(self.up)));
         self.lights.iter().fold(ambient, |sum, light| sum + g3(wgsl::lit_by(*light, surface)))
     }
+}
+
+/// How much the filters of a lens, or of a rule, count on a fragment shown at `position` (around the eye).
+pub fn soft_amount(plan: &Plan, rank: usize, instance: &Instance, position: Vec3) -> f32 {
+    let Some(lens) = plan.lenses.get(rank).filter(|lens| lens.soft > 0.0) else { return 1.0 };
+    let asked = match lens.by {
+        By::Pixel => {
+            let shown = position.as_dvec3() + plan.view.eye;
+            instance.source_from_shown(rank, false).transform_point3(shown)
+        }
+        By::Object => plan.items[instance.item].center,
+    };
+    (lens.volume.depth_inside(asked) / lens.soft).clamp(0.0, 1.0) as f32
 }

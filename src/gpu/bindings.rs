@@ -41,12 +41,7 @@ impl Layouts {
             layers: layout(device, "layers", compute | fragment, &[ReadWrite, ReadWrite]),
             visibility: layout(device, "visibility", compute | fragment, &[Read, ReadWrite, ReadWrite, ReadWrite]),
             resolve: layout(device, "resolve", compute | fragment, &[Read, Read, Read, IdTexture, ReadWrite]),
-            screen: layout(
-                device,
-                "screen",
-                compute | fragment,
-                &[Read, ReadWrite, ReadWrite, ReadWrite, Record, ReadWrite],
-            ),
+            screen: layout(device, "screen", compute | fragment, &[ReadWrite, ReadWrite, ReadWrite, Record, ReadWrite]),
         }
     }
 }

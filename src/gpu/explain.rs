@@ -106,8 +106,8 @@ impl Headless {
         loop {
             let job = renderer.prepare_next_behind(&self.device, scene, plan, window, after)?;
             let Some(sample) = job.samples.iter().find(|sample| sample.maps) else { return Ok(None) };
-            let pass =
-                renderer.explain_pass(&self.device, plan, &job, 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words)))?;
+            let bytes = 4 * (FIXED_WORDS as u64 + 2 * u64::from(job.words));
+            let pass = renderer.explain_pass(&self.device, &job, bytes)?;
             let mut encoder = self.encoder();
             job.encode_layers(&mut encoder, sample);
             job.encode_visibility(&mut encoder, sample);

@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use super::draws::Draw;
 use super::frame::Sample;
+use super::pipelines::Pipelines;
 use super::screen_job::ScreenJob;
 use super::targets::Targets;
 use super::tiles::{DISPATCH_WIDTH, Tiles};
-use super::{Needs, Room, Window};
+use super::{Room, Window};
 use crate::lens::PixelRect;
 
 /// A frame ready to be encoded, stage by stage.
 #[derive(Debug)]
 pub struct Job {
-    pub needs: Needs,
     pub samples: Vec<Sample>,
     pub window: Window,
     /// Counters of the room that each sample needs.
@@ -32,6 +32,8 @@ pub struct Job {
     pub items: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub compute: ComputeSteps,
+    /// Those that give accounts of pixels.
+    pub accounts: Arc<Pipelines>,
     pub resolve: ResolvePipelines,
     /// Filters of the screen, where there are some.
     pub screen: Option<ScreenJob>,
@@ -65,8 +67,6 @@ pub struct Groups {
     pub visibility: wgpu::BindGroup,
     pub resolve: wgpu::BindGroup,
     pub maps: Option<wgpu::BindGroup>,
-    /// What is visible at each sample, for filters of the screen.
-    pub screen_maps: Option<wgpu::BindGroup>,
 }
 
 /// What composites pixels.
@@ -74,7 +74,7 @@ pub struct Groups {
 pub enum ResolvePipelines {
     /// Into the picture: those of tiles that lenses touch, and those of all others.
     Tiles { inside: wgpu::RenderPipeline, outside: wgpu::RenderPipeline },
-    /// All of one sample into a buffer, for filters of the screen.
+    /// One sample into a buffer, for filters of the screen.
     Sample(wgpu::ComputePipeline),
 }
 
@@ -176,20 +176,14 @@ impl Job {
             }
             ResolvePipelines::Sample(pipeline) => {
                 self.encode_pixels(encoder, sample, pipeline, &self.groups.resolve);
-                self.encode_screen(encoder, sample, target);
+                if let Some(screen) = &self.screen {
+                    screen.encode(encoder, &self.groups.plan, self.offset(sample, 0), &self.window, target);
+                }
             }
         }
         if let (true, Some(pipeline), Some(group)) = (sample.maps, &self.compute.aov, &self.groups.maps) {
             self.encode_pixels(encoder, sample, pipeline, group);
         }
-    }
-
-    fn encode_screen(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, target: &wgpu::TextureView) {
-        let (Some(screen), Some(group)) = (&self.screen, &self.groups.screen_maps) else { return };
-        if let Some(pipeline) = &self.compute.aov {
-            self.encode_pixels(encoder, sample, pipeline, group);
-        }
-        screen.encode(encoder, &self.groups.plan, self.offset(sample, 0), &self.window, target);
     }
 
     /// Classifies and shades the fragment that a sample has drawn at the window's one pixel.

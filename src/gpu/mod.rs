@@ -51,6 +51,7 @@ pub use window::Window;
 pub mod layout {
     //! The records shared with WGSL, for tests that compare their layouts.
     pub use super::records::{FrameRecord, ItemRecord, LensRecord, PartRecord, StepRecord, TextureInfo};
+    pub use super::targets::sample_bytes;
 }
 
 /// How the scene meets the layers.

@@ -101,7 +101,7 @@ impl Needs {
             quantities: plan.ops.iter().any(Op::reads_quantity),
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
             channels: plan.channels.len() as u32,
-            screen: plan.ops.iter().any(Op::is_of_screen),
+            screen: !plan.screen.is_empty(),
         }
     }
 
@@ -150,9 +150,10 @@ impl Needs {
         }
     }
 
-    /// The same for passes over the finished picture, which know nothing but sets.
+    /// The same for passes over the finished picture, which know nothing but sets and, where a lens is soft, how deep
+    /// inside it something is.
     pub fn for_screen(self) -> Self {
-        Self {
+        let sets = Self {
             part_words: 1,
             lenses: true,
             layers: false,
@@ -161,11 +162,17 @@ impl Needs {
             forms: [false; 4],
             movers: false,
             versions: false,
+            caps: false,
             soft: false,
             translucent: false,
             channels: 0,
             ..self.without_shading()
+        };
+        if !self.soft {
+            return sets;
         }
+        let Self { part_words, compounds, forms, movers, .. } = self;
+        Self { part_words, compounds, forms, movers, soft: true, ..sets }
     }
 
     /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything.
@@ -214,6 +221,7 @@ impl Needs {
             ("COVERAGE_FILTERS", self.stages[2]),
             ("QUANTITIES", self.quantities),
             ("HIDDEN_LINES", self.hidden_lines),
+            ("SCREEN", self.screen),
         ];
         let filters = FILTERS.iter().enumerate().map(|(number, filter)| {
             let (name, has) = (filter.name.to_uppercase(), self.filters >> number & 1 != 0);

@@ -14,7 +14,7 @@ use super::plan_group::{PlanContents, PlanGroup};
 use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::screen_job::ScreenJob;
-use super::targets::{FRAGMENT_BYTES, Targets, work_buffer};
+use super::targets::{FRAGMENT_BYTES, ScreenTargets, TargetSizes, Targets, work_buffer};
 use super::tiles::Tiles;
 use super::upload::{SceneData, largest_buffer};
 use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov};
@@ -135,20 +135,10 @@ impl Renderer {
     }
 
     /// What classifies and shades the fragment of a frame of one pixel, into so many bytes.
-    pub(super) fn explain_pass(
-        &self,
-        device: &wgpu::Device,
-        plan: &Plan,
-        job: &Job,
-        bytes: u64,
-    ) -> Result<ExplainPass, Error> {
+    pub(super) fn explain_pass(&self, device: &wgpu::Device, job: &Job, bytes: u64) -> Result<ExplainPass, Error> {
         let buffer = work_buffer(device, self.largest_buffer, "fragment of a pixel", bytes)?;
         let group = self.resolve_group(device, &job.targets, buffer.as_entire_binding());
-        Ok(ExplainPass {
-            pipeline: self.store.get(job.needs.for_accounts(), &custom_text(plan)).explain(&self.store),
-            group,
-            buffer,
-        })
+        Ok(ExplainPass { pipeline: job.accounts.explain(&self.store), group, buffer })
     }
 
     fn prepare_frame(
@@ -162,13 +152,17 @@ impl Renderer {
     ) -> Result<Job, Error> {
         let needs = Needs::of(scene, plan, options.engine);
         // Maps count layers, whether the picture asks for them or not.
-        let cuts_layers = needs.layers || options.aovs || needs.screen;
+        let cuts_layers = needs.layers || options.aovs;
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
-        let fragments = self.reserved.fragments.max(first_guess(plan, &window));
-        let layer_words = if cuts_layers { tiles.layer_words } else { 0 };
-        let heads = window.pixels() * if needs.caps { 2 } else { 1 };
-        let targets = self.targets(device, &window, plan.samples, layer_words, heads, fragments)?;
+        let sizes = TargetSizes {
+            summed: if plan.samples > 1 { window.pixels() } else { 0 },
+            layer_words: if cuts_layers { tiles.layer_words } else { 0 },
+            heads: window.pixels() * if needs.caps { 2 } else { 1 },
+            fragments: self.reserved.fragments.max(first_guess(plan, &window)),
+            screen: needs.screen.then_some(words),
+        };
+        let targets = self.targets(device, &window, &sizes)?;
         let room = Room { fragments: targets.fragments.size() / FRAGMENT_BYTES, ..self.reserved };
         let samples = frame::samples(plan, options.aovs);
         let passes = frame::passes(options.engine, &tiles);
@@ -198,12 +192,16 @@ impl Renderer {
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
-        let screen = needs.screen.then(|| self.screen(device, plan, &window, needs, &targets)).transpose()?;
-        let groups = self.groups(device, group, &targets, &needed, maps.as_ref(), screen.as_ref());
+        // What they were made for may have needed more.
+        let of_screen = targets.screen.as_ref().filter(|_| needs.screen);
+        let screen = of_screen.map(|of_screen| self.screen(device, plan, needs, of_screen, &targets.accumulated));
+        let resolved = of_screen.map_or(&targets.accumulated, |of_screen| &of_screen.samples);
+        let groups = self.groups(device, group, &targets, &needed, maps.as_ref(), resolved);
         let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
         // Compiled side by side where they are new.
         let (store, custom, none) = (&self.store, &custom_text(plan), &Arc::from(""));
         let unshaded = store.get(needs.without_shading(), none);
+        let accounts = store.get(needs.for_accounts(), custom);
         let ((draws, caps, layers), (aov, resolve)) = rayon::join(
             || {
                 let program = program_of(options.engine, after.is_some());
@@ -217,7 +215,7 @@ impl Renderer {
             },
             || {
                 let resolve = |needs| store.get(needs, custom).resolve(store);
-                let aov = (options.aovs || needs.screen).then(|| store.get(needs.for_accounts(), custom).aov(store));
+                let aov = options.aovs.then(|| accounts.aov(store));
                 let of_sample = || ResolvePipelines::Sample(store.get(needs, custom).resolve_sample(store));
                 let of_tiles = || {
                     let (inside, outside) = rayon::join(|| resolve(needs), || resolve(needs.outside(plan)));
@@ -227,7 +225,6 @@ impl Renderer {
             },
         );
         Ok(Job {
-            needs,
             samples,
             window,
             needed,
@@ -243,6 +240,7 @@ impl Renderer {
             indices: self.scene.indices.clone(),
             items,
             compute: ComputeSteps { layers, aov },
+            accounts,
             resolve,
             screen,
             targets,
@@ -254,13 +252,12 @@ impl Renderer {
         &self,
         device: &wgpu::Device,
         plan: &Plan,
-        window: &Window,
         needs: Needs,
-        targets: &Targets,
-    ) -> Result<ScreenJob, Error> {
+        targets: &ScreenTargets,
+        accumulated: &wgpu::Buffer,
+    ) -> ScreenJob {
         let pipelines = self.store.get(needs.for_screen(), &Arc::from("")).screen(&self.store);
-        let (layout, summed) = (&self.store.layouts.screen, &targets.accumulated);
-        ScreenJob::new(device, self.largest_buffer, plan, window, needs.set_words, pipelines, layout, summed)
+        ScreenJob::new(device, plan, pipelines, &self.store.layouts.screen, targets, accumulated)
     }
 
     /// The draws of a plan, each with the pipeline that draws it.
@@ -282,27 +279,18 @@ impl Renderer {
             .collect()
     }
 
-    fn targets(
-        &mut self,
-        device: &wgpu::Device,
-        window: &Window,
-        samples: u32,
-        layer_words: u64,
-        heads: u64,
-        fragments: u64,
-    ) -> Result<Arc<Targets>, Error> {
-        let summed = if samples > 1 { window.pixels() } else { 0 };
-        if let Some(targets) = self.targets.as_ref().filter(|t| t.fits(window, summed, layer_words, heads, fragments)) {
+    fn targets(&mut self, device: &wgpu::Device, window: &Window, sizes: &TargetSizes) -> Result<Arc<Targets>, Error> {
+        if let Some(targets) = self.targets.as_ref().filter(|targets| targets.fits(window, sizes)) {
             return Ok(targets.clone());
         }
         // The old ones first, or both would be held at once.
         self.targets = None;
-        let targets =
-            Arc::new(Targets::new(device, self.largest_buffer, window, summed, layer_words, heads, fragments)?);
+        let targets = Arc::new(Targets::new(device, self.largest_buffer, window, sizes)?);
         self.targets = Some(targets.clone());
         Ok(targets)
     }
 
+    /// `resolved`: what samples are composited into.
     fn groups(
         &self,
         device: &wgpu::Device,
@@ -310,13 +298,12 @@ impl Renderer {
         targets: &Targets,
         needed: &wgpu::Buffer,
         maps: Option<&wgpu::Buffer>,
-        screen: Option<&ScreenJob>,
+        resolved: &wgpu::Buffer,
     ) -> Groups {
         let layers = || targets.layers.as_entire_binding();
         let heads = || targets.heads.as_entire_binding();
         let fragments = || targets.fragments.as_entire_binding();
         let counters = || needed.as_entire_binding();
-        let accumulated = || targets.accumulated.as_entire_binding();
         Groups {
             scene: self.scene.bind_group.clone(),
             plan,
@@ -327,12 +314,7 @@ impl Renderer {
                 &self.store.layouts.visibility,
                 &[layers(), heads(), fragments(), counters()],
             ),
-            resolve: self.resolve_group(
-                device,
-                targets,
-                screen.map_or_else(accumulated, |screen| screen.colors.as_entire_binding()),
-            ),
-            screen_maps: screen.map(|screen| self.resolve_group(device, targets, screen.maps.as_entire_binding())),
+            resolve: self.resolve_group(device, targets, resolved.as_entire_binding()),
             maps: maps.map(|maps| self.resolve_group(device, targets, maps.as_entire_binding())),
         }
     }

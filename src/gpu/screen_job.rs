@@ -1,19 +1,15 @@
 //! The filters of the screen as passes over a window.
 
 use super::pipelines::ScreenPipelines;
-use super::targets::work_buffer;
-use super::{Error, Window, aov, bindings};
+use super::targets::ScreenTargets;
+use super::{Window, bindings};
 use crate::appearance as wgsl;
 use crate::plan::Plan;
 
-/// Buffers and passes that filter each sample of a window, between its resolve and the picture.
+/// Passes that filter each sample of a window, between its resolve and the picture.
 #[derive(Debug)]
 pub struct ScreenJob {
     pipelines: ScreenPipelines,
-    /// Colours of one sample, which the resolve writes.
-    pub colors: wgpu::Buffer,
-    /// What is visible at each pixel's sample.
-    pub maps: wgpu::Buffer,
     group: wgpu::BindGroup,
     /// For each step, the pipelines of its two passes and where its record stands.
     steps: Vec<([wgpu::ComputePipeline; 2], u32)>,
@@ -23,31 +19,18 @@ pub struct ScreenJob {
 type StepRecord = [u32; 4];
 
 impl ScreenJob {
-    /// `words`: of a set of lenses; `stride`: bytes from one record to the next; `accumulated`: colours summed over samples.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "the device and its limit, the plan's shape, and what it is wired to"
-    )]
     pub fn new(
         device: &wgpu::Device,
-        allowed: u64,
         plan: &Plan,
-        window: &Window,
-        words: u32,
         pipelines: ScreenPipelines,
         layout: &wgpu::BindGroupLayout,
+        targets: &ScreenTargets,
         accumulated: &wgpu::Buffer,
-    ) -> Result<Self, Error> {
-        let pixels = window.pixels();
-        let buffer = |what: &str, bytes| work_buffer(device, allowed, what, bytes);
-        let colors = buffer("colours of the screen", 16 * pixels)?;
-        let rows = buffer("sums of the screen's rows", 16 * pixels)?;
-        let marks = buffer("marks of the screen", 4 * pixels)?;
-        let maps = buffer("maps of the screen", aov::bytes(window, words))?;
+    ) -> Self {
         let stride =
             (size_of::<StepRecord>() as u32).next_multiple_of(device.limits().min_storage_buffer_offset_alignment);
         let (mut records, mut steps) = (Vec::new(), Vec::new());
-        for step in plan.screen_steps() {
+        for step in &plan.screen {
             let is_edges = plan.ops[step.op].kind == wgsl::OP_EDGES.0;
             steps.push((if is_edges { &pipelines.edges } else { &pipelines.means }.clone(), records.len() as u32));
             let record: StepRecord = [step.op as u32, step.rank as u32, 0, 0];
@@ -72,15 +55,14 @@ impl ScreenJob {
             "screen",
             layout,
             &[
-                maps.as_entire_binding(),
-                colors.as_entire_binding(),
-                rows.as_entire_binding(),
-                marks.as_entire_binding(),
+                targets.samples.as_entire_binding(),
+                targets.rows.as_entire_binding(),
+                targets.marks.as_entire_binding(),
                 wgpu::BindingResource::Buffer(record),
                 accumulated.as_entire_binding(),
             ],
         );
-        Ok(Self { pipelines, colors, maps, group, steps })
+        Self { pipelines, group, steps }
     }
 
     /// Filters the sample that the resolve has written, and draws the picture of all samples up to it. `offset`: of its

@@ -44,10 +44,10 @@ impl Module {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
             Module::Visibility => &[&[LISTS, VISIBILITY], VOLUMES, CLASSIFYING],
             Module::Caps => &[&[LISTS, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
-            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, RESOLVE]],
+            Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, SCREEN_SAMPLE, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
-            Module::Screen => &[&[FINISH, SCREEN]],
+            Module::Screen => &[&[SET, STEPS, SOFT], VOLUMES, &[FINISH, SCREEN_SAMPLE, SCREEN]],
         }
     }
 }
@@ -55,7 +55,7 @@ impl Module {
 /// Where rays cross lens volumes.
 const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
 /// Who acts on a fragment.
-const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, MOVED, WALK];
+const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, STEPS, MOVED, WALK];
 /// What a fragment looks like.
 const SHADING: &[&str] = &[CLOSING, BOUNDARY, CAPS, TEXTURE, SOFT, STACK, CUSTOM, SHADE, FRAGMENTS];
 
@@ -67,6 +67,7 @@ const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
 const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
 const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
 const ASKED: &str = include_str!("../../shaders/gpu/asked.wgsl");
+const STEPS: &str = include_str!("../../shaders/gpu/steps.wgsl");
 const MOVED: &str = include_str!("../../shaders/gpu/moved.wgsl");
 const WALK: &str = include_str!("../../shaders/gpu/walk.wgsl");
 const SOFT: &str = include_str!("../../shaders/gpu/soft.wgsl");
@@ -89,6 +90,7 @@ const FRAGMENTS: &str = include_str!("../../shaders/gpu/fragments.wgsl");
 const RESOLVE: &str = include_str!("../../shaders/gpu/resolve.wgsl");
 const CUSTOM: &str = include_str!("../../shaders/gpu/custom.wgsl");
 const FINISH: &str = include_str!("../../shaders/gpu/finish.wgsl");
+const SCREEN_SAMPLE: &str = include_str!("../../shaders/gpu/screen_sample.wgsl");
 const SCREEN: &str = include_str!("../../shaders/gpu/screen.wgsl");
 const AOV: &str = include_str!("../../shaders/gpu/aov.wgsl");
 const EXPLAIN: &str = include_str!("../../shaders/gpu/explain.wgsl");

@@ -3,6 +3,7 @@
 use super::headless::smaller;
 use super::lens_data::LensData;
 use super::renderer::Renderer;
+use super::targets::ScreenTargets;
 use super::{Error, Headless, RenderOptions, Window};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -16,6 +17,8 @@ pub struct LensStorage {
     pub fragments: u64,
     /// The newest fragment of each pixel.
     pub heads: u64,
+    /// Samples and sums, where there are filters of the screen.
+    pub screen: u64,
     /// Which lenses touch which tiles, and with which faces.
     pub tiles: u64,
     /// Lenses, their parts, planes, programs and meshes.
@@ -24,9 +27,16 @@ pub struct LensStorage {
 
 impl LensStorage {
     /// Each amount and what it is for.
-    pub fn parts(&self) -> [(&'static str, u64); 5] {
-        let Self { layers, fragments, heads, tiles, records } = *self;
-        [("layers", layers), ("fragments", fragments), ("heads", heads), ("tiles", tiles), ("lens records", records)]
+    pub fn parts(&self) -> [(&'static str, u64); 6] {
+        let Self { layers, fragments, heads, screen, tiles, records } = *self;
+        [
+            ("layers", layers),
+            ("fragments", fragments),
+            ("heads", heads),
+            ("screen", screen),
+            ("tiles", tiles),
+            ("lens records", records),
+        ]
     }
 
     pub fn total(&self) -> u64 {
@@ -55,6 +65,7 @@ impl Headless {
                         layers: job.targets.layers.size(),
                         fragments: job.targets.fragments.size(),
                         heads: job.targets.heads.size(),
+                        screen: job.targets.screen.as_ref().map_or(0, ScreenTargets::bytes),
                         tiles: 4 * job.tiles.words.len() as u64,
                         records: record_bytes(&records),
                     };

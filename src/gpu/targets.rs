@@ -10,6 +10,19 @@ pub const FRAGMENT_BYTES: u64 = 16;
 /// Bytes of a pixel's summed colour.
 const SUMMED_BYTES: u64 = 16;
 
+/// What a frame needs of its targets, beside its window.
+#[derive(Debug, Clone, Copy)]
+pub struct TargetSizes {
+    /// For how many pixels colours are summed.
+    pub summed: u64,
+    pub layer_words: u64,
+    /// Of lists.
+    pub heads: u64,
+    pub fragments: u64,
+    /// Words of a set of lenses, where there are filters of the screen.
+    pub screen: Option<u32>,
+}
+
 /// Textures and buffers of one window.
 #[derive(Debug)]
 pub struct Targets {
@@ -22,19 +35,24 @@ pub struct Targets {
     pub accumulated: wgpu::Buffer,
     pub layers: wgpu::Buffer,
     pub fragments: wgpu::Buffer,
+    pub screen: Option<ScreenTargets>,
+}
+
+/// What filters of the screen work on.
+#[derive(Debug)]
+pub struct ScreenTargets {
+    /// One sample of each pixel.
+    pub samples: wgpu::Buffer,
+    /// Sums along rows.
+    pub rows: wgpu::Buffer,
+    /// A number for each pixel.
+    pub marks: wgpu::Buffer,
 }
 
 impl Targets {
-    /// `summed`: for how many pixels colours are summed; `heads`: of lists.
-    pub fn new(
-        device: &wgpu::Device,
-        allowed: u64,
-        window: &Window,
-        summed: u64,
-        layer_words: u64,
-        heads: u64,
-        fragments: u64,
-    ) -> Result<Self, Error> {
+    /// `allowed`: the most bytes that a buffer may have.
+    pub fn new(device: &wgpu::Device, allowed: u64, window: &Window, sizes: &TargetSizes) -> Result<Self, Error> {
+        let TargetSizes { summed, layer_words, heads, fragments, screen } = *sizes;
         let limit = device.limits().max_texture_dimension_2d;
         let side = window.size[0].max(window.size[1]);
         if side > limit {
@@ -63,17 +81,43 @@ impl Targets {
             accumulated: work_buffer(device, allowed, "summed colours", SUMMED_BYTES * summed)?,
             layers: work_buffer(device, allowed, "layers", 4 * layer_words)?,
             fragments: work_buffer(device, allowed, "fragments", FRAGMENT_BYTES * fragments)?,
+            screen: screen.map(|words| ScreenTargets::new(device, allowed, window, words)).transpose()?,
         })
     }
 
     /// Whether a frame of this size fits.
-    pub fn fits(&self, window: &Window, summed: u64, layer_words: u64, heads: u64, fragments: u64) -> bool {
+    pub fn fits(&self, window: &Window, sizes: &TargetSizes) -> bool {
+        let holds_samples =
+            |words| self.screen.as_ref().is_some_and(|s| s.samples.size() >= sample_bytes(words) * window.pixels());
         self.size == window.size
-            && self.accumulated.size() >= SUMMED_BYTES * summed
-            && self.heads.size() >= 4 * heads
-            && self.layers.size() >= 4 * layer_words
-            && self.fragments.size() >= FRAGMENT_BYTES * fragments
+            && self.accumulated.size() >= SUMMED_BYTES * sizes.summed
+            && self.heads.size() >= 4 * sizes.heads
+            && self.layers.size() >= 4 * sizes.layer_words
+            && self.fragments.size() >= FRAGMENT_BYTES * sizes.fragments
+            && sizes.screen.is_none_or(holds_samples)
     }
+}
+
+impl ScreenTargets {
+    fn new(device: &wgpu::Device, allowed: u64, window: &Window, words: u32) -> Result<Self, Error> {
+        let pixels = window.pixels();
+        let buffer = |label, bytes| work_buffer(device, allowed, label, bytes * pixels);
+        Ok(Self {
+            samples: buffer("samples of the screen", sample_bytes(words))?,
+            rows: buffer("sums of the screen's rows", 16)?,
+            marks: buffer("marks of the screen", 4)?,
+        })
+    }
+
+    /// Of all buffers.
+    pub fn bytes(&self) -> u64 {
+        [&self.samples, &self.rows, &self.marks].map(wgpu::Buffer::size).iter().sum()
+    }
+}
+
+/// Bytes of a `ScreenSample` of the shaders, with sets of so many words.
+pub fn sample_bytes(words: u32) -> u64 {
+    (36 + 2 * 4 * u64::from(words)).next_multiple_of(16)
 }
 
 /// A storage buffer that passes write and may be copied from; `allowed`: the most bytes it may have.

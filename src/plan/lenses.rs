@@ -150,8 +150,8 @@ pub(super) fn rank_lenses(
     let mut lenses: Vec<Lens> = Vec::new();
     for (rank, &index) in order.iter().enumerate() {
         let (lens, Some(placed)) = (&spec.lenses[index], &volumes[index]) else { continue };
+        let own = ops.append(&lens.filters)?;
         let filters: Vec<Filter> = lens.filters.iter().map(|f| f.value.clone()).collect();
-        let own = ops.append(&filters)?;
         let overrides = lens.overlap == OverlapMode::Override;
         lenses.push(Lens {
             name: lens.name.value.clone(),

@@ -65,6 +65,8 @@ pub struct Plan {
     pub rules: Vec<Rule>,
     /// Appearance filters of all lenses and rules; each has a range of them.
     pub ops: Vec<Op>,
+    /// The work on the finished picture, lowest first.
+    pub screen: Vec<ScreenStep>,
     /// Names of the numbers at vertices that filters read: of [`Primitive::values`](crate::scene::Primitive::values).
     pub channels: Vec<String>,
     /// The files of the user's own filters, by the numbers that their records have.
@@ -127,6 +129,7 @@ impl Plan {
             texture_space: texture_space(scene),
             view,
             bodies: caps::bodies(scene, &items, &instances),
+            screen: screen::steps(&lenses, &rules, &ops),
             lenses,
             rules,
             ops,

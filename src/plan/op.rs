@@ -1,12 +1,12 @@
 //! Filters as both backends run them: one record each, as in `shaders/appearance/surface.wgsl`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::{Custom, Given};
-use crate::scene::{Aabb, Scene};
+use crate::scene::{Aabb, CURVATURE, Scene};
 use crate::spec::{At, Color, Filter, Quantity, Spec, UvMapping};
 use crate::view::View;
 
@@ -122,12 +122,13 @@ impl<'a> Ops<'a> {
     }
 
     /// Appends the records of a list's appearance filters; their places.
-    pub fn append(&mut self, filters: &[Filter]) -> Result<std::ops::Range<usize>, InputError> {
+    pub fn append(&mut self, filters: &[At<Filter>]) -> Result<std::ops::Range<usize>, InputError> {
         let first = self.list.len();
-        let last_mover = filters.iter().rposition(Filter::moves);
+        let last_mover = filters.iter().rposition(|filter| filter.value.moves());
         for (place, filter) in filters.iter().enumerate() {
             let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
-            if let Some(op) = self.record(filter)? {
+            let record = self.record(&filter.value).map_err(|e| e.or_at(&self.spec.source, filter.span.clone()))?;
+            if let Some(op) = record {
                 self.list.push(Op { inner, ..op });
             }
         }
@@ -152,9 +153,9 @@ impl<'a> Ops<'a> {
             Filter::Brightness { amount } => Op::new(wgsl::OP_BRIGHTNESS, NONE, one(*amount)),
             Filter::Unlit { color } => Op::new(wgsl::OP_UNLIT, NONE, NONE).colored(*color),
             Filter::Normals => Op::new(wgsl::OP_NORMALS, NONE, NONE),
-            Filter::FalseColor { quantity, colormap, range } => self.false_color(quantity, colormap, *range),
+            Filter::FalseColor { quantity, colormap, range } => self.false_color(quantity, colormap, *range)?,
             Filter::Contours { quantity, spacing, width, color } => {
-                self.contours(quantity, *spacing, *width).with_color(*color)
+                self.contours(quantity, *spacing, *width)?.with_color(*color)
             }
             Filter::Toon { levels } => Op::new(wgsl::OP_TOON, NONE, one(*levels as f32)),
             Filter::Hatch { spacing, width, color } => {
@@ -171,7 +172,7 @@ impl<'a> Ops<'a> {
             Filter::Pixelate { radius } => Op::new(wgsl::OP_PIXELATE, NONE, one(*radius)),
             Filter::Points { size } => Op::new(wgsl::OP_POINTS, NONE, one(*size)),
             Filter::Texture { file, uv, scale } => Op {
-                texture: self.scene.filter_textures.get(&file.value).copied().unwrap_or_default(),
+                texture: *prepared(self.scene.filter_textures.get(&file.value), || named("the image", &file.value))?,
                 flags: mapping(*uv).0,
                 ..Op::new(wgsl::OP_TEXTURE, [scale[0], scale[1], 0.0, 0.0], NONE)
             },
@@ -191,10 +192,7 @@ impl<'a> Ops<'a> {
     /// channel.
     fn custom(&mut self, file: &At<PathBuf>, params: &[Given]) -> Result<Op, InputError> {
         let source = &self.spec.source;
-        let Some(custom) = self.scene.custom_filters.get(&file.value) else {
-            let message = format!("the scene has not been prepared for the filter file {}", file.value.display());
-            return Err(InputError::at(source, file.span.clone(), message).help("`Scene::prepare_filters` reads it"));
-        };
+        let custom = prepared(self.scene.custom_filters.get(&file.value), || named("the filter file", &file.value))?;
         let words = custom.values(source, params)?;
         let first = self.custom_words.len() as u32;
         if first >= 1 << 16 {
@@ -211,7 +209,7 @@ impl<'a> Ops<'a> {
         Ok(op.flagged(CUSTOM_SURFACE, custom.has_surface()).flagged(CUSTOM_COLOR, custom.has_color()))
     }
 
-    fn false_color(&mut self, quantity: &Quantity, colormap: &str, range: Option<[f64; 2]>) -> Op {
+    fn false_color(&mut self, quantity: &Quantity, colormap: &str, range: Option<[f64; 2]>) -> Result<Op, InputError> {
         let kind = match quantity {
             Quantity::Slope => wgsl::OP_NORMALS,
             Quantity::Depth => wgsl::OP_DEPTH,
@@ -219,18 +217,18 @@ impl<'a> Ops<'a> {
             Quantity::Curvature => wgsl::OP_CURVATURE,
             Quantity::Attribute(_) => wgsl::OP_ATTRIBUTE,
         };
-        let [low, high] = range.unwrap_or_else(|| self.fitted(quantity));
+        let [low, high] = range.unwrap_or(self.fitted(quantity)?);
         // A range without a length shows one colour, the low one.
         let scale = if high > low { 1.0 / (high - low) } else { 0.0 };
-        let texture = self.scene.color_maps.get(colormap).copied().unwrap_or_default();
+        let texture = *prepared(self.scene.color_maps.get(colormap), || format!("the colour map `{colormap}`"))?;
         let op = self.reading(Op::new(kind, NONE, [low as f32, scale as f32, 0.0, 0.0]), quantity);
-        Op { texture, ..op.flagged(wgsl::MAPPED.0, true) }
+        Ok(Op { texture, ..op.flagged(wgsl::MAPPED.0, true) })
     }
 
-    fn contours(&mut self, quantity: &Quantity, spacing: Option<f64>, width: f32) -> Op {
-        let [low, high] = self.fitted(quantity);
+    fn contours(&mut self, quantity: &Quantity, spacing: Option<f64>, width: f32) -> Result<Op, InputError> {
+        let [low, high] = self.fitted(quantity)?;
         let spacing = spacing.unwrap_or_else(|| round_spacing((high - low) / 10.0));
-        self.reading(Op::new(wgsl::OP_CONTOURS, NONE, [0.0, 0.0, spacing as f32, width]), quantity)
+        Ok(self.reading(Op::new(wgsl::OP_CONTOURS, NONE, [0.0, 0.0, spacing as f32, width]), quantity))
     }
 
     /// The same, told what it reads.
@@ -251,19 +249,34 @@ impl<'a> Ops<'a> {
     }
 
     /// The range of a quantity in the scene, or of the depths at which it is seen.
-    fn fitted(&self, quantity: &Quantity) -> [f64; 2] {
+    fn fitted(&self, quantity: &Quantity) -> Result<[f64; 2], InputError> {
         let bounds = self.scene.models[0].bounds();
-        match quantity {
+        Ok(match quantity {
             Quantity::Slope => [-1.0, 1.0],
             Quantity::Height if bounds.is_empty() => [0.0; 2],
             Quantity::Height => [bounds.min.y, bounds.max.y],
             Quantity::Depth => depths(self.view, &bounds),
-            Quantity::Curvature | Quantity::Attribute(_) => {
-                let range = quantity.value_name().and_then(|name| self.scene.value_ranges.get(name));
-                range.map_or([0.0; 2], |range| range.map(f64::from))
-            }
-        }
+            Quantity::Curvature => self.range_of_values(CURVATURE)?,
+            Quantity::Attribute(name) => self.range_of_values(&name.value)?,
+        })
     }
+
+    fn range_of_values(&self, name: &str) -> Result<[f64; 2], InputError> {
+        let range = prepared(self.scene.value_ranges.get(name), || format!("the values `{name}` at vertices"))?;
+        Ok(range.map(f64::from))
+    }
+}
+
+/// What `Scene::prepare_filters` has put into the scene; an error where nobody called it.
+fn prepared<T>(found: Option<T>, what: impl FnOnce() -> String) -> Result<T, InputError> {
+    found.ok_or_else(|| {
+        InputError::new(format!("the scene has not been prepared for {}", what()))
+            .help("call `Scene::prepare_filters` with the spec")
+    })
+}
+
+fn named(what: &str, path: &Path) -> String {
+    format!("{what} {}", path.display())
 }
 
 /// The depths of bounds between near and far.
@@ -336,6 +349,58 @@ pub fn filter_name(filter: &Filter) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn spec(filter: &str) -> Spec {
+        let text = format!(
+            "[scene]\nfile = \"made-in-code.glb\"\n[[lens]]\nname = \"a\"\n\
+             shape.sphere = {{ center = [0, 0, 0], radius = 1 }}\nfilters = [{filter}]\n"
+        );
+        Spec::parse(&text, "spec.toml", env!("CARGO_MANIFEST_DIR").as_ref()).expect("the test's spec is right")
+    }
+
+    /// A triangle with a number at each vertex.
+    fn scene() -> Scene {
+        use crate::scene::{Material, Mesh, Model, Node, Primitive, Transform};
+        let positions = vec![glam::Vec3::ZERO, glam::Vec3::X, glam::Vec3::Y];
+        let values = [("_HEAT".to_owned(), vec![0.0, 1.0, 2.0])].into();
+        let primitive = Primitive { positions, values, triangles: vec![[0, 1, 2]], ..Primitive::default() };
+        let node = Node {
+            name: "triangle".into(),
+            parent: None,
+            children: vec![],
+            rest: Transform::Matrix(glam::DAffine3::IDENTITY),
+            world_from_local: glam::DAffine3::IDENTITY,
+            mesh: Some(0),
+            camera: None,
+            light: None,
+            drawn: true,
+        };
+        let mesh = Mesh { name: "triangle".into(), primitives: vec![primitive] };
+        let materials = vec![Material::default()];
+        Scene::new(vec![Model { nodes: vec![node], meshes: vec![mesh], materials, ..Model::default() }], vec![])
+    }
+
+    #[test]
+    fn a_scene_that_was_not_prepared_is_refused() {
+        let filters = [
+            (r#"{ texture = { file = "lens-specs/textures/checker.png" } }"#, "the image "),
+            (r#""height""#, "the colour map `viridis`"),
+            (r#"{ normals = { colormap = "turbo" } }"#, "the colour map `turbo`"),
+            (r#"{ curvature = { range = [0, 1] } }"#, "the values `curvature`"),
+            (r#"{ attribute = { name = "_HEAT" } }"#, "the values `_HEAT`"),
+            (r#"{ contours = { quantity = "_HEAT", spacing = 1 } }"#, "the values `_HEAT`"),
+            (r#"{ wgsl = { file = "lens-specs/wgsl/stripes.wgsl" } }"#, "the filter file "),
+        ];
+        for (filter, what) in filters {
+            let (spec, mut scene) = (spec(filter), scene());
+            let error = crate::plan::Plan::new(&spec, &scene).expect_err(filter);
+            let start = format!("the scene has not been prepared for {what}");
+            assert!(error.message.starts_with(&start), "{filter}: {error}");
+            assert_eq!(error.line(), Some(6), "{filter}: {error}");
+            scene.prepare_filters(&spec).unwrap_or_else(|error| panic!("{filter}: {error}"));
+            crate::plan::Plan::new(&spec, &scene).unwrap_or_else(|error| panic!("{filter}: {error}"));
+        }
+    }
 
     #[test]
     fn spacings_are_round() {

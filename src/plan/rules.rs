@@ -56,8 +56,8 @@ impl Test {
 /// The rules of a spec in their order, their filters behind those of the lenses.
 pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Result<Vec<Rule>, InputError> {
     let rule = |rule: &crate::spec::OverlapSpec| {
+        let own = ops.append(&rule.filters)?;
         let filters: Vec<Filter> = rule.filters.iter().map(|f| f.value.clone()).collect();
-        let own = ops.append(&filters)?;
         Ok(Rule {
             when: Test::new(&rule.when.value, lenses),
             translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),

@@ -1,6 +1,6 @@
 //! The screen-space filters of a plan: what is done to the finished picture, in stack order (SEMANTICS 5.4).
 
-use super::{Op, Plan};
+use super::{Lens, Op, Plan, Rule};
 use crate::appearance as wgsl;
 
 /// A filter's work on the pixels at which its lens, or rule, acts on what is visible.
@@ -12,17 +12,17 @@ pub struct ScreenStep {
     pub op: usize,
 }
 
-impl Plan {
-    /// All steps, lowest first.
-    pub fn screen_steps(&self) -> Vec<ScreenStep> {
-        let ranks = 0..self.lenses.len() + self.rules.len();
-        let steps = ranks.flat_map(|rank| self.ops_of(rank).map(move |op| ScreenStep { rank, op }));
-        steps.filter(|step| self.ops[step.op].is_of_screen()).collect()
-    }
+/// All steps, lowest first.
+pub(super) fn steps(lenses: &[Lens], rules: &[Rule], ops: &[Op]) -> Vec<ScreenStep> {
+    let of_ranks = lenses.iter().map(|lens| &lens.ops).chain(rules.iter().map(|rule| &rule.ops));
+    let steps = of_ranks.enumerate().flat_map(|(rank, own)| own.clone().map(move |op| ScreenStep { rank, op }));
+    steps.filter(|step| ops[step.op].is_of_screen()).collect()
+}
 
+impl Plan {
     /// How far from a pixel all steps together look, in pixels.
     pub fn screen_reach(&self) -> u32 {
-        self.screen_steps().iter().map(|step| self.ops[step.op].screen_reach()).sum()
+        self.screen.iter().map(|step| self.ops[step.op].screen_reach()).sum()
     }
 }
 

@@ -82,7 +82,7 @@ impl Scene {
     }
 
     /// Reads and computes what the filters of a spec look up: images, colour maps, numbers at vertices. [`Scene::open`]
-    /// does; a scene made of models in memory needs it before a plan whose filters ask for such.
+    /// does; a scene made of models in memory needs it before a plan whose filters ask for such, which is refused otherwise.
     pub fn prepare_filters(&mut self, spec: &Spec) -> Result<(), InputError> {
         let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
         for filter in filters {

@@ -52,6 +52,13 @@ pub fn storage_grows_with_the_lenses(device: &Headless) -> Result<(), String> {
     let (none, small, large) = (storage("")?, storage(&ball(0.1))?, storage(&ball(0.8))?);
     assert!(none.layers < small.layers && small.layers < large.layers, "{none:?} {small:?} {large:?}");
     assert_eq!(none.records, 0);
+    let blurred = storage(&ball(0.8).replace("filters = [", "filters = [\"blur\", "))?;
+    let pixels = u64::from(SIZE[0] * SIZE[1]);
+    assert_eq!(
+        (large.screen, blurred.screen),
+        (0, pixels * (48 + 16 + 4)),
+        "a sample, a sum and a mark for each pixel"
+    );
     assert_eq!(small.records, large.records, "one sphere is as large as another");
     assert_eq!(large.total(), large.parts().iter().map(|(_, bytes)| bytes).sum::<u64>());
     Ok(())

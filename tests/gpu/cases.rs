@@ -24,6 +24,8 @@ pub const ALL: &[(&str, Test)] = &[
     ("sixty_four_sheets", crate::panes::sixty_four_sheets),
     ("random_stacks", crate::stacks::random_stacks),
     ("filters_of_the_screen", filters_of_the_screen),
+    ("soft_filters_of_the_screen", soft_filters_of_the_screen),
+    ("kept_targets_of_the_screen", kept_targets_of_the_screen),
     ("too_small_a_device", too_small_a_device),
     ("run_to_run", run_to_run),
     ("a_difference_is_found", a_difference_is_found),
@@ -180,6 +182,55 @@ fn filters_of_the_screen(device: &Headless) -> Result<(), String> {
     for (camera, samples) in [(PERSPECTIVE, 4), (ORTHOGRAPHIC, 1)] {
         let (scene, plan) = planned(SIZE, samples, camera, &lenses.concat());
         check(device, &scene, &plan)?;
+    }
+    Ok(())
+}
+
+/// They fade in where their lenses are soft: by the point that is shown, by where a magnifier takes it from, and by the
+/// whole object.
+fn soft_filters_of_the_screen(device: &Headless) -> Result<(), String> {
+    let lens = |name: &str, x: f64, rest: &str| {
+        let shape = format!("shape.sphere = {{ center = [{x}, 0.1, 0.2], radius = 0.5 }}");
+        format!("[[lens]]\nname = \"{name}\"\n{shape}\nglass = false\n{rest}\n")
+    };
+    let lenses = [
+        lens("a", -0.4, "soft = 0.3\nfilters = [\"invert\", { blur = { radius = 4 } }]"),
+        lens("b", 0.3, "soft = 0.4\nby = \"object\"\nfilters = [{ pixelate = { radius = 3 } }]"),
+        lens("c", 0.2, "soft = 0.2\nfilters = [{ edges = { color = \"red\", width = 4 } }]"),
+        lens("d", 0.0, "filters = [{ magnify = { factor = 1.5 } }]"),
+    ];
+    for (camera, samples) in [(PERSPECTIVE, 4), (ORTHOGRAPHIC, 1)] {
+        let (scene, plan) = planned(SIZE, samples, camera, &lenses.concat());
+        check(device, &scene, &plan)?;
+        let (_, hard) = planned(SIZE, samples, camera, &lenses.concat().replace("soft", "priority = 0\n# "));
+        if agree(&on_cpu(&scene, &plan), &on_cpu(&scene, &hard)).is_ok() {
+            return Err("lenses that are not soft look the same".into());
+        }
+    }
+    Ok(())
+}
+
+/// A renderer that goes from one picture to another makes what a new one makes of each.
+fn kept_targets_of_the_screen(device: &Headless) -> Result<(), String> {
+    let lens = |number: usize, filters: &str| {
+        let shape = format!("shape.sphere = {{ center = [{}, 0.1, 0.2], radius = 0.4 }}", 0.02 * number as f64 - 0.3);
+        format!("[[lens]]\nname = \"l{number}\"\n{shape}\nfilters = [{filters}]\nglass = false\n")
+    };
+    // Sets of one word, none, sets of two.
+    let one = lens(0, "\"edges\", { blur = { radius = 3 } }");
+    let many: String = (0..33).map(|number| lens(number, if number == 32 { "\"pixelate\"" } else { "" })).collect();
+    let (scene, _) = planned(SIZE, 1, PERSPECTIVE, "");
+    let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
+    for (step, (size, lenses)) in
+        [(SIZE, one.as_str()), (SIZE, ""), (SIZE, &many), (SIZE, &one), ([90, 40], &many)].into_iter().enumerate()
+    {
+        let (_, plan) = planned(size, 1, PERSPECTIVE, lenses);
+        let options = RenderOptions::default();
+        let kept = device.render_with(&mut renderer, &scene, &plan, options, &mut None).map_err(|e| e.to_string())?;
+        let new = device.render(&scene, &plan, options).map_err(|e| e.to_string())?;
+        if kept.pixels != new.pixels {
+            return Err(format!("picture {step} is another one than a new renderer's"));
+        }
     }
     Ok(())
 }

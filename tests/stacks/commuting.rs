@@ -22,7 +22,7 @@ const FILTERS: [&str; 29] = [
     "{ material = { metallic = 0.3 } }",
     "{ material = { roughness = 0.2, metallic = 0.9 } }",
     "{ material = { emissive = \"purple\" } }",
-    "{ texture = { file = \"t.png\" } }",
+    "{ texture = { file = \"lens-specs/textures/checker.png\" } }",
     "\"normals\"",
     "\"wireframe\"",
     "{ wireframe = { color = \"red\", width = 2.0, fill = 0.2 } }",
@@ -49,7 +49,9 @@ fn plan() -> Plan {
     let lenses: String = FILTERS.iter().enumerate().map(lens).collect();
     let text = format!("[scene]\nfile = \"a.glb\"\n{lenses}");
     let spec = Spec::parse(&text, "filters.toml", std::path::Path::new("")).unwrap_or_else(|e| panic!("{e}"));
-    Plan::new(&spec, &scene()).unwrap_or_else(|e| panic!("{e}"))
+    let mut scene = scene();
+    scene.prepare_filters(&spec).unwrap_or_else(|e| panic!("{e}"));
+    Plan::new(&spec, &scene).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn surface(random: &mut Random) -> wgsl::Surface {

@@ -19,6 +19,8 @@ pub struct FilterRow {
     pub built: bool,
     pub help: &'static str,
     pub params: &'static [Param],
+    /// What shows it best, from `lens-specs/filters`; `None`: the picture there that has its name.
+    pub picture: Option<&'static str>,
 }
 
 /// When a filter acts (SEMANTICS 5.4).
@@ -85,6 +87,11 @@ pub fn filter(name: &str) -> Option<&'static FilterRow> {
 impl FilterRow {
     pub fn param(&self, name: &str) -> Option<&'static Param> {
         self.params.iter().find(|param| param.name == name)
+    }
+
+    /// The picture that shows it best, from `lens-specs/filters`.
+    pub fn picture(&self) -> String {
+        self.picture.map_or_else(|| format!("{}.png", self.name), str::to_owned)
     }
 
     /// Whether the bare name is a whole filter.

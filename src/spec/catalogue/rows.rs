@@ -22,11 +22,16 @@ const fn param(name: &'static str, kind: ParamKind, default: ParamDefault, help:
 }
 
 const fn built(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
-    FilterRow { name, kind, moves: false, built: true, help, params }
+    FilterRow { name, kind, moves: false, built: true, help, params, picture: None }
 }
 
 const fn mover(row: FilterRow) -> FilterRow {
     FilterRow { moves: true, ..row }
+}
+
+/// A filter that another picture than the one of its name shows best.
+const fn pictured(picture: &'static str, row: FilterRow) -> FilterRow {
+    FilterRow { picture: Some(picture), ..row }
 }
 
 /// All filters, in the order of the format's table.
@@ -34,10 +39,13 @@ pub const FILTERS: &[FilterRow] = &[
     built("wireframe", Coverage, "draws triangle edges, anti-aliased", WIREFRAME),
     built("points", Coverage, "draws vertices as discs", POINTS),
     built("erase", Content, "removes what it matches", ERASE),
-    built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
+    pictured(
+        "show-alternate.png",
+        built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
+    ),
     built("lod", Content, "shows a simplified version", LOD),
-    mover(built("magnify", Content, "enlarges what is inside", MAGNIFY)),
-    mover(built("displace", Content, "moves matched nodes", DISPLACE)),
+    pictured("../movers/magnify.png", mover(built("magnify", Content, "enlarges what is inside", MAGNIFY))),
+    pictured("../movers/displace.png", mover(built("displace", Content, "moves matched nodes", DISPLACE))),
     built("opacity", Surface, "multiplies the opacity", OPACITY),
     built("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
     built("tint", Colour, "mixes a colour in", TINT),
@@ -45,8 +53,8 @@ pub const FILTERS: &[FilterRow] = &[
     built("invert", Colour, "inverts the colour", INVERT),
     built("brightness", Colour, "multiplies the brightness", BRIGHTNESS),
     built("unlit", Surface, "no lighting", UNLIT),
-    built("material", Surface, "overrides the material", MATERIAL),
-    built("texture", Surface, "replaces the base colour texture", TEXTURE),
+    pictured("material-all.png", built("material", Surface, "overrides the material", MATERIAL)),
+    pictured("texture-box.png", built("texture", Surface, "replaces the base colour texture", TEXTURE)),
     built("normals", Surface, "false colour by the surface normal", NORMALS),
     built("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
     built("height", Surface, "false colour by height", FALSE_COLOR),
@@ -58,7 +66,7 @@ pub const FILTERS: &[FilterRow] = &[
     built("edges", Screen, "silhouettes, creases and region borders", EDGES),
     built("blur", Screen, "blurs, to push context back", BLUR),
     built("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
-    built("wgsl", Custom, "a filter of your own, in WGSL", WGSL),
+    pictured("../wgsl/stripes.png", built("wgsl", Custom, "a filter of your own, in WGSL", WGSL)),
 ];
 
 const WIREFRAME: &[Param] = &[

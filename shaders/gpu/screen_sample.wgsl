@@ -1,0 +1,14 @@
+// What filters of the screen are told of a pixel's sample: `resolve.wgsl` writes it, `screen.wgsl` reads and colours it.
+// Its size has a twin in `targets.rs`.
+
+struct ScreenSample {
+    // Premultiplied and linear.
+    color: vec4f,
+    // Of the visible fragment, like all that follows.
+    normal: vec3f,
+    depth: f32,
+    // The number of its item plus one; 0: nothing is visible.
+    item: u32,
+    around: Set,
+    stack: Set,
+}
