@@ -24,7 +24,7 @@ const NONE: &str = "none";
 fn main() -> Result<(), String> {
     let word = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
     let names: Vec<&str> = std::iter::once(NONE)
-        .chain(FILTERS.iter().filter(|row| row.built && row.name.contains(&word)).map(|row| row.name))
+        .chain(FILTERS.iter().filter(|row| row.name.contains(&word)).map(|row| row.name))
         .collect();
     let specs: Vec<Spec> = names.iter().map(|name| spec(name)).collect();
     let mut scene = Scene::new(vec![support::surface(TRIANGLES), other()], vec!["other".into()]);

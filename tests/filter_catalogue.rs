@@ -58,12 +58,12 @@ fn table(row: &FilterRow, params: &[&Param], write: impl Fn(&Param) -> Option<St
 /// Parameters that may be written, of `show` only the first: it takes one of the two.
 fn usable(row: &FilterRow) -> Vec<&'static Param> {
     let most = if row.name == "show" { 1 } else { row.params.len() };
-    row.params.iter().filter(|param| param.built).take(most).collect()
+    row.params.iter().take(most).collect()
 }
 
 #[test]
-fn built_filters_read_as_bare_names_and_as_tables_of_their_defaults() {
-    for row in FILTERS.iter().filter(|row| row.built && row.stands_alone()) {
+fn filters_read_as_bare_names_and_as_tables_of_their_defaults() {
+    for row in FILTERS.iter().filter(|row| row.stands_alone()) {
         let bare = read(&format!("\"{}\"", row.name)).unwrap_or_else(|error| panic!("{}: {error}", row.name));
         let written = read(&table(row, &usable(row), written_default)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(bare, written, "{}: the written defaults differ from those left out", row.name);
@@ -73,20 +73,10 @@ fn built_filters_read_as_bare_names_and_as_tables_of_their_defaults() {
 }
 
 #[test]
-fn built_filters_read_with_every_parameter() {
-    for row in FILTERS.iter().filter(|row| row.built) {
+fn filters_read_with_every_parameter() {
+    for row in FILTERS {
         let entry = table(row, &usable(row), |param| Some(example(param)));
         read(&entry).unwrap_or_else(|error| panic!("{entry}: {error}"));
-    }
-}
-
-#[test]
-fn planned_filters_are_refused_by_name_once_their_parameters_are_right() {
-    for row in FILTERS.iter().filter(|row| !row.built) {
-        let params: Vec<&Param> = row.params.iter().collect();
-        let entry = table(row, &params, |param| Some(example(param)));
-        let error = read(&entry).expect_err(row.name);
-        assert!(error.contains(&format!("filter `{}` is not built yet", row.name)), "{entry}: {error}");
     }
 }
 

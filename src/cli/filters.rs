@@ -47,28 +47,23 @@ impl Columns {
 
 fn block(row: &FilterRow) -> String {
     let moves = if row.moves { ", moves" } else { "" };
-    let mut text = format!("{} ({}{moves}): {}{}\n", row.name, row.kind, row.help, waits(row.built));
+    let mut text = format!("{} ({}{moves}): {}\n", row.name, row.kind, row.help);
     let columns = Columns::of(row.params);
     for param in row.params {
-        text.push_str(&line(param, row.built, &columns));
+        text.push_str(&line(param, &columns));
     }
     text
 }
 
-fn line(param: &Param, row_built: bool, columns: &Columns) -> String {
+fn line(param: &Param, columns: &Columns) -> String {
     let Columns { name, kind, default } = columns;
     format!(
-        "    {:<name$}  {:<kind$}  {:<default$}  {}{}\n",
+        "    {:<name$}  {:<kind$}  {:<default$}  {}\n",
         param.name,
         param.kind.to_string(),
         param.default.to_string(),
         param.help,
-        waits(param.built || !row_built)
     )
-}
-
-fn waits(built: bool) -> &'static str {
-    if built { "" } else { " [not built yet]" }
 }
 
 /// What a filter's own file says of it.
@@ -79,17 +74,14 @@ fn documentation(row: &FilterRow) -> &'static str {
 fn section(row: &FilterRow) -> String {
     let FilterRow { name, kind, help, .. } = row;
     let moves = if row.moves { ", moves content" } else { "" };
-    let mut text = format!("## `{name}`\n\n*{kind}{moves}*: {help}{}.\n", waits(row.built));
-    if row.built {
-        text += &format!("\n![{name}]({})\n", row.picture());
-    }
-    text += &format!("\n{}\n", documentation(row));
+    let (picture, documentation) = (row.picture(), documentation(row));
+    let mut text = format!("## `{name}`\n\n*{kind}{moves}*: {help}.\n\n![{name}]({picture})\n\n{documentation}\n");
     if !row.params.is_empty() {
         text += "\n| parameter | value | default | |\n|---|---|---|---|\n";
     }
-    for Param { name, kind, default, built, help } in row.params {
+    for Param { name, kind, default, help } in row.params {
         let kind = kind.to_string().replace('|', "\\|");
-        text += &format!("| `{name}` | {kind} | {default} | {help}{} |\n", waits(*built || !row.built));
+        text += &format!("| `{name}` | {kind} | {default} | {help} |\n");
     }
     text
 }

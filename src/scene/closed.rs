@@ -25,7 +25,7 @@ impl Closure {
         self.open_edges == 0
     }
 
-    fn new(mesh: &Mesh) -> Self {
+    pub(super) fn new(mesh: &Mesh) -> Self {
         let mut places = HashMap::new();
         let runs: Vec<Vec<Run>> = mesh.primitives.iter().map(|primitive| runs(primitive, &mut places)).collect();
         let (edges, open_edges) = count(runs.concat());

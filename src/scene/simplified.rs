@@ -126,3 +126,107 @@ fn lods(spec: &Spec) -> impl Iterator<Item = (f32, Option<&LensSpec>)> {
     let of_rules = spec.overlaps.iter().filter_map(move |rule| Some((ratio(&rule.filters)?, None)));
     of_lenses.chain(of_rules).filter(|(ratio, _)| *ratio < 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::super::{Closure, Mesh};
+    use super::*;
+
+    /// A bumpy ball, in quads cut in triangles; `sharp`: each triangle with corners and a normal of its own.
+    fn ball(sharp: bool) -> Primitive {
+        const COLUMNS: u32 = 64;
+        const ROWS: u32 = 32;
+        let point = |x: u32, y: u32| {
+            let (turn, tilt) = ((x % COLUMNS) as f32 / COLUMNS as f32, y as f32 / ROWS as f32);
+            let (turn, tilt) = (std::f32::consts::TAU * turn, std::f32::consts::PI * tilt);
+            let radius = 1.0 + 0.02 * (5.0 * turn).sin() * (4.0 * tilt).sin();
+            // The poles are one place each.
+            let round = if y % ROWS == 0 { 0.0 } else { tilt.sin() };
+            radius * Vec3::new(round * turn.sin(), tilt.cos(), round * turn.cos())
+        };
+        let quads = (0..ROWS).flat_map(|y| (0..COLUMNS).map(move |x| (x, y)));
+        let triangles =
+            quads.flat_map(|(x, y)| [[(x, y), (x, y + 1), (x + 1, y)], [(x + 1, y), (x, y + 1), (x + 1, y + 1)]]);
+        let triangles: Vec<[Vec3; 3]> = triangles.map(|corners| corners.map(|(x, y)| point(x, y))).collect();
+        let positions: Vec<Vec3> = triangles.concat();
+        let flat = |[a, b, c]: &[Vec3; 3]| [(*b - *a).cross(*c - *a).normalize_or(Vec3::Y); 3];
+        let normals = if sharp {
+            triangles.iter().flat_map(flat).collect()
+        } else {
+            positions.iter().map(|p| p.normalize()).collect()
+        };
+        let triangles = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        Primitive { positions, normals: Some(normals), triangles, ..Primitive::default() }
+    }
+
+    #[test]
+    fn the_share_that_was_asked_for_is_left() {
+        for (sharp, ratio) in [(false, 0.5), (false, 0.1), (true, 0.2)] {
+            let ball = ball(sharp);
+            let Simplified { triangles, error, .. } = Simplified::new(&ball, ratio);
+            let left = triangles.len() as f32 / ball.triangles.len() as f32;
+            assert!(left <= ratio + 0.001 && left > 0.9 * ratio, "{left} for {ratio}");
+            assert!(error > 0.0 && error < 0.1, "{error}");
+            let far = |corner: &u32| (ball.positions[*corner as usize].length() - 1.0).abs() > 0.03;
+            assert!(!triangles.as_flattened().iter().any(far), "corners are corners of the ball");
+        }
+    }
+
+    #[test]
+    fn a_closed_mesh_stays_closed() {
+        let Simplified { triangles, .. } = Simplified::new(&ball(false), 0.05);
+        let simplified = Primitive { triangles, ..ball(false) };
+        let closure = Closure::new(&Mesh { name: String::new(), primitives: vec![simplified] });
+        assert!(closure.is_closed(), "{closure:?}");
+    }
+
+    #[test]
+    fn a_box_stays_a_box_and_a_border_stays_where_it_is() {
+        let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let cube = Primitive {
+            positions: (0..8).map(corner).collect(),
+            triangles: faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
+            ..Primitive::default()
+        };
+        assert_eq!(Simplified::new(&cube, 0.01).triangles.len(), 12);
+        let half: Vec<[u32; 3]> = ball(false).triangles[..2048].to_vec();
+        let bowl = Primitive { triangles: half, ..ball(false) };
+        let rim = |triangles: &[[u32; 3]]| {
+            let places: BTreeSet<[u32; 3]> = triangles
+                .as_flattened()
+                .iter()
+                .map(|corner| bowl.positions[*corner as usize])
+                .filter(|p| p.y.abs() < 0.03)
+                .map(|p| p.to_array().map(f32::to_bits))
+                .collect();
+            places
+        };
+        let simplified = Simplified::new(&bowl, 0.1).triangles;
+        assert!(simplified.len() < 300 && rim(&simplified) == rim(&bowl.triangles));
+    }
+
+    #[test]
+    fn corners_take_the_normal_that_fits() {
+        let ball = ball(true);
+        let normals = ball.normals.clone().unwrap_or_default();
+        let worst = |triangles: &[[u32; 3]]| {
+            let fits = triangles.iter().flat_map(|corners| {
+                let [a, b, c] = corners.map(|corner| ball.positions[corner as usize]);
+                let across = (b - a).cross(c - a).normalize_or(Vec3::Y);
+                corners.map(|corner| normals[corner as usize].dot(across))
+            });
+            fits.fold(1.0, f32::min)
+        };
+        // Each corner turned to the vertex at its place that fits least, and back.
+        let place = places(&ball);
+        let mut turned = ball.triangles.clone();
+        let last_at: std::collections::HashMap<usize, u32> = place.iter().copied().zip(0u32..).collect();
+        turned.as_flattened_mut().iter_mut().for_each(|corner| *corner = last_at[&place[*corner as usize]]);
+        let before = worst(&turned);
+        fit_normals(&ball, &mut turned);
+        assert!(before < FITS && worst(&turned) >= FITS, "{before} and {}", worst(&turned));
+    }
+}

@@ -27,7 +27,7 @@ pub fn filter() -> Value {
 
 fn parameters(row: &FilterRow) -> Value {
     let properties: Map<String, Value> =
-        row.params.iter().map(|param| (param.name.to_owned(), parameter(row, param))).collect();
+        row.params.iter().map(|param| (param.name.to_owned(), parameter(param))).collect();
     let required: Vec<&str> =
         row.params.iter().filter(|param| param.default == ParamDefault::Required).map(|param| param.name).collect();
     let mut schema = table(&required, properties.into());
@@ -35,10 +35,10 @@ fn parameters(row: &FilterRow) -> Value {
         schema["minProperties"] = json!(1);
         schema["maxProperties"] = json!(1);
     }
-    described(schema, &with_state(row.help, row.built), Value::Null)
+    described(schema, row.help, Value::Null)
 }
 
-fn parameter(row: &FilterRow, param: &Param) -> Value {
+fn parameter(param: &Param) -> Value {
     let (default, meaning) = match param.default {
         ParamDefault::Number(value) => (value.into(), String::new()),
         ParamDefault::Color(text) | ParamDefault::Text(text) => (text.into(), String::new()),
@@ -47,11 +47,7 @@ fn parameter(row: &FilterRow, param: &Param) -> Value {
         ParamDefault::Required => (Value::Null, String::new()),
     };
     let help = format!("{}{meaning}", param.help);
-    described(kind(param.kind), &with_state(&help, param.built || !row.built), default)
-}
-
-fn with_state(help: &str, built: bool) -> String {
-    if built { help.to_owned() } else { format!("{help} (not built yet)") }
+    described(kind(param.kind), &help, default)
 }
 
 fn kind(kind: ParamKind) -> Value {

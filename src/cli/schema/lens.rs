@@ -27,7 +27,7 @@ pub fn lens() -> Value {
         "by": described(json!({ "enum": ["pixel", "object"] }), "Cuts through objects, or takes whole ones.", json!("pixel")),
         "only": described(reference("matches"), "Acts on these alone.", NONE),
         "except": described(reference("matches"), "Does not act on these.", NONE),
-        "soft": described(number(NumberRange::NOT_NEGATIVE), "Width of the fade (only 0 is built).", json!(0)),
+        "soft": described(number(NumberRange::NOT_NEGATIVE), "Width over which the effect fades in from the boundary, scene units.", json!(0)),
         "glass": glass(),
     });
     table(&["name", "shape"], properties)

@@ -1,4 +1,4 @@
-//! Every filter of the format: kind, help, parameters with type, range and default, and whether it is built.
+//! Every filter of the format: kind, help, parameters with type, range and default.
 //! The reader of specs, `lenspeel filters` and the JSON Schema all answer from here.
 
 mod rows;
@@ -16,7 +16,6 @@ pub struct FilterRow {
     pub kind: FilterKind,
     /// Moves content, so that lenses below it act at another point (SEMANTICS 5.2).
     pub moves: bool,
-    pub built: bool,
     pub help: &'static str,
     pub params: &'static [Param],
     /// What shows it best, from `lens-specs/filters`; `None`: the picture there that has its name.
@@ -39,8 +38,6 @@ pub struct Param {
     pub name: &'static str,
     pub kind: ParamKind,
     pub default: ParamDefault,
-    /// A parameter that is not built may only have its default.
-    pub built: bool,
     pub help: &'static str,
 }
 

@@ -18,11 +18,11 @@ const FITTED: ParamDefault = Meaning("fitted to what is seen");
 const EVERYTHING: ParamDefault = Meaning("everything");
 
 const fn param(name: &'static str, kind: ParamKind, default: ParamDefault, help: &'static str) -> Param {
-    Param { name, kind, default, built: true, help }
+    Param { name, kind, default, help }
 }
 
-const fn built(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
-    FilterRow { name, kind, moves: false, built: true, help, params, picture: None }
+const fn filter(name: &'static str, kind: FilterKind, help: &'static str, params: &'static [Param]) -> FilterRow {
+    FilterRow { name, kind, moves: false, help, params, picture: None }
 }
 
 const fn mover(row: FilterRow) -> FilterRow {
@@ -36,37 +36,37 @@ const fn pictured(picture: &'static str, row: FilterRow) -> FilterRow {
 
 /// All filters, in the order of the format's table.
 pub const FILTERS: &[FilterRow] = &[
-    built("wireframe", Coverage, "draws triangle edges, anti-aliased", WIREFRAME),
-    built("points", Coverage, "draws vertices as discs", POINTS),
-    built("erase", Content, "removes what it matches", ERASE),
+    filter("wireframe", Coverage, "draws triangle edges, anti-aliased", WIREFRAME),
+    filter("points", Coverage, "draws vertices as discs", POINTS),
+    filter("erase", Content, "removes what it matches", ERASE),
     pictured(
         "show-alternate.png",
-        built("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
+        filter("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
     ),
-    built("lod", Content, "shows a simplified version", LOD),
-    pictured("../movers/magnify.png", mover(built("magnify", Content, "enlarges what is inside", MAGNIFY))),
-    pictured("../movers/displace.png", mover(built("displace", Content, "moves matched nodes", DISPLACE))),
-    built("opacity", Surface, "multiplies the opacity", OPACITY),
-    built("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
-    built("tint", Colour, "mixes a colour in", TINT),
-    built("grayscale", Colour, "takes the colour out", GRAYSCALE),
-    built("invert", Colour, "inverts the colour", INVERT),
-    built("brightness", Colour, "multiplies the brightness", BRIGHTNESS),
-    built("unlit", Surface, "no lighting", UNLIT),
-    pictured("material-all.png", built("material", Surface, "overrides the material", MATERIAL)),
-    pictured("texture-box.png", built("texture", Surface, "replaces the base colour texture", TEXTURE)),
-    built("normals", Surface, "false colour by the surface normal", NORMALS),
-    built("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
-    built("height", Surface, "false colour by height", FALSE_COLOR),
-    built("curvature", Surface, "false colour by curvature", FALSE_COLOR),
-    built("attribute", Surface, "false colour by a vertex attribute", ATTRIBUTE),
-    built("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
-    built("toon", Surface, "light in a few flat steps", TOON),
-    built("hatch", Surface, "light as pen strokes", HATCH),
-    built("edges", Screen, "silhouettes, creases and region borders", EDGES),
-    built("blur", Screen, "blurs, to push context back", BLUR),
-    built("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
-    pictured("../wgsl/stripes.png", built("wgsl", Custom, "a filter of your own, in WGSL", WGSL)),
+    filter("lod", Content, "shows a simplified version", LOD),
+    pictured("../movers/magnify.png", mover(filter("magnify", Content, "enlarges what is inside", MAGNIFY))),
+    pictured("../movers/displace.png", mover(filter("displace", Content, "moves matched nodes", DISPLACE))),
+    filter("opacity", Surface, "multiplies the opacity", OPACITY),
+    filter("ghost", Surface, "x-ray look: opacity from the view angle", GHOST),
+    filter("tint", Colour, "mixes a colour in", TINT),
+    filter("grayscale", Colour, "takes the colour out", GRAYSCALE),
+    filter("invert", Colour, "inverts the colour", INVERT),
+    filter("brightness", Colour, "multiplies the brightness", BRIGHTNESS),
+    filter("unlit", Surface, "no lighting", UNLIT),
+    pictured("material-all.png", filter("material", Surface, "overrides the material", MATERIAL)),
+    pictured("texture-box.png", filter("texture", Surface, "replaces the base colour texture", TEXTURE)),
+    filter("normals", Surface, "false colour by the surface normal", NORMALS),
+    filter("depth", Surface, "false colour by depth along the camera's forward axis", FALSE_COLOR),
+    filter("height", Surface, "false colour by height", FALSE_COLOR),
+    filter("curvature", Surface, "false colour by curvature", FALSE_COLOR),
+    filter("attribute", Surface, "false colour by a vertex attribute", ATTRIBUTE),
+    filter("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
+    filter("toon", Surface, "light in a few flat steps", TOON),
+    filter("hatch", Surface, "light as pen strokes", HATCH),
+    filter("edges", Screen, "silhouettes, creases and region borders", EDGES),
+    filter("blur", Screen, "blurs, to push context back", BLUR),
+    filter("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
+    pictured("../wgsl/stripes.png", filter("wgsl", Custom, "a filter of your own, in WGSL", WGSL)),
 ];
 
 const WIREFRAME: &[Param] = &[

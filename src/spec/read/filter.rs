@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 use super::item::{File, Item, kind_of};
 use super::suggest;
 use super::table::{entries, only_entry};
-use super::{cap, color, later};
+use super::{cap, color};
 use crate::InputError;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
@@ -51,9 +51,6 @@ pub fn list_that_stays(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
 fn one(item: &Item) -> Result<At<Filter>, InputError> {
     let (row, item, table) = named(item)?;
     let params = Params::read(row, &item, table)?;
-    if !row.built {
-        return Err(later::filter(&item, row));
-    }
     Ok(item.at(build(row, &params)?))
 }
 
@@ -123,12 +120,7 @@ impl<'a> Params<'a> {
     }
 
     fn given(&self, param: &Param, item: &Item) -> Result<Value, InputError> {
-        let value = read(param.kind, item)?;
-        let is_default = matches!((&value, param.default), (Value::Bool(a), ParamDefault::Bool(b)) if *a == b);
-        if self.row.built && !param.built && !is_default {
-            return Err(later::param(item, self.row, param));
-        }
-        Ok(value)
+        read(param.kind, item)
     }
 
     fn default(&self, param: &Param) -> Result<Option<Value>, InputError> {
