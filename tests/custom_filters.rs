@@ -144,7 +144,7 @@ const SURFACE: SurfaceValue = SurfaceValue {
 #[test]
 fn all_examples_are_tested_here() {
     let names: Vec<String> = files("lens-specs/wgsl").iter().map(|path| stem(path).to_owned()).collect();
-    assert_eq!(names, ["rim", "stripes", "thermal"]);
+    assert_eq!(names, ["bumps", "rim", "stripes", "thermal"]);
 }
 
 #[test]
@@ -181,6 +181,27 @@ fn the_rim_glows_where_the_surface_turns_away() {
     assert_eq!(glow([1.0, 0.0, 0.0]), [4.5; 3]);
     let half = glow([0.75_f32.sqrt(), 0.0, 0.5]);
     assert!(half.iter().all(|x| (x - 1.5).abs() < 1e-5), "{half:?}");
+}
+
+#[test]
+fn bumps_turn_the_normal_away_from_where_the_noise_grows() {
+    let bumps = example("bumps");
+    let noise =
+        Custom::parse("fn filter_color(c: vec3f, s: Surface) -> vec3f { return vec3f(noise3(c)); }", "noise.wgsl");
+    let noise = noise.expect("a filter");
+    let of = |height| words(&bumps, &[("size", Value::Number(1.0)), ("height", Value::Number(height))]);
+    let mut turned = 0.0_f32;
+    for i in 0..20 {
+        let position = [0.37 * i as f32, 0.2, 0.1];
+        let at = |x: f32| noise.color([position[0] + x, position[1], position[2]], &SURFACE, &[])[0];
+        let grows = at(0.05) - at(-0.05);
+        let normal = bumps.surface(&SurfaceValue { position, ..SURFACE }, &of(0.5)).normal;
+        assert!(normal[0] * grows <= 0.0, "{normal:?} where the noise grows by {grows}");
+        assert!((normal.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-5 && normal[2] > 0.5, "{normal:?}");
+        turned = turned.max(normal[0].abs());
+        assert_eq!(bumps.surface(&SurfaceValue { position, ..SURFACE }, &of(0.0)).normal, SURFACE.normal);
+    }
+    assert!(turned > 0.2, "at most {turned}");
 }
 
 #[test]

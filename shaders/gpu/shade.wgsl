@@ -70,7 +70,8 @@ fn slot_uv(item: u32, corners: vec3u, slot: TextureSlot) -> CornerUv {
 
 fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
     let size = length(v);
-    if size > 1e-30 {
+    // What is so long that its length is no number has no direction either.
+    if size > 1e-30 && size < 1e38 {
         return v / size;
     }
     return other;

@@ -17,9 +17,10 @@ use random::Random;
 const TOLERANCE: f32 = 1e-3;
 
 /// Filters that together use most of the language.
-const FILTERS: [(&str, &str); 12] = [
+const FILTERS: [(&str, &str); 13] = [
     ("stripes", include_str!("../../lens-specs/wgsl/stripes.wgsl")),
     ("rim", include_str!("../../lens-specs/wgsl/rim.wgsl")),
+    ("bumps", include_str!("../../lens-specs/wgsl/bumps.wgsl")),
     ("thermal", include_str!("../../lens-specs/wgsl/thermal.wgsl")),
     ("noise", "fn filter_color(c: vec3f, s: Surface) -> vec3f {
         return c * noise3(s.position * 4.0) + vec3f(hash3(vec3i(s.pixel.xyx))); }"),

@@ -5,6 +5,7 @@ mod agree;
 mod bench;
 mod cases;
 mod compounds;
+mod custom;
 mod host;
 mod intervals;
 mod limits;
