@@ -31,10 +31,15 @@ pub fn not_wgsl(text: &Text, error: &ParseError) -> InputError {
             .help("use fewer brackets within brackets; give parts a name with `let`");
     }
     let message = without_handles(&plain(error.message()).replace("found \"\"", "found the end of the file"));
-    // naga has no place for this one.
+    // naga has no place for this one and the next.
     if let Some((index, _)) = message.strip_prefix("index ").and_then(|rest| rest.split_once(" is out of bounds")) {
         let place = words::find_run(&text.user.text, &["[", index, "]"]);
         return text.error(place, format!("there is no element {index}")).help("they count from 0");
+    }
+    if message.starts_with("incompatible operands") && first.is_none() {
+        return text
+            .error(None, "an operator stands between values that it does not work on, such as arrays or structs")
+            .help("take the parts that you need, as in a[0], s.normal or *p");
     }
     let mut refusal = text.error(first, message);
     for (span, label) in error.labels() {
