@@ -151,3 +151,23 @@ fn tangents_of_triangles_run_along_u_and_up_the_image() {
         assert!(tangent.w.abs() == 1.0);
     }
 }
+
+/// Half of a filter's work on a soft lens: half of the turn of a normal, and half of all else.
+#[test]
+fn a_soft_lens_fades_what_a_filter_makes_of_a_surface() {
+    let before = surface([0.2, 0.4, 0.6], 0.0);
+    let after = wgsl::Surface { normal: Vec3::new(1.0, 0.0, 0.0), occlusion: 0.0, roughness: 0.0, ..before };
+    let half = wgsl::faded_surface(before, after, 0.5);
+    let side = 0.5f32.sqrt();
+    assert!(near(half.normal.x, side, 1e-6) && near(half.normal.y, 0.0, 1e-6) && near(half.normal.z, side, 1e-6));
+    assert!(near(half.occlusion, 0.5, 1e-6) && near(half.roughness, 0.5, 1e-6));
+    for (amount, normal) in [(0.0, before.normal), (1.0, after.normal)] {
+        let end = wgsl::faded_surface(before, after, amount).normal;
+        assert!(near(end.x, normal.x, 1e-6) && near(end.z, normal.z, 1e-6), "{amount}: {end:?}");
+    }
+    // No way leads from a normal to its opposite, and what is not turned stays the same to the bit.
+    let opposite = wgsl::Surface { normal: Vec3::new(0.0, 0.0, -1.0), ..before };
+    assert_eq!(wgsl::faded_surface(before, opposite, 0.5).normal.z, -1.0);
+    let odd = wgsl::Surface { normal: Vec3::new(0.1, 0.2, 0.3), ..before };
+    assert_eq!(wgsl::faded_surface(odd, odd, 0.3).normal.y, 0.2);
+}

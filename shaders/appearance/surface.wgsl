@@ -83,6 +83,17 @@ fn emitted(s: Surface, lit: vec3f) -> vec3f {
     return mix(color, base_color(s), s.unlit);
 }
 
+// A normal that a filter has turned, turned by `amount` (0..1) of it. What no filter turned stays the same to the bit.
+fn faded_normal(before: vec3f, after: vec3f, amount: f32) -> vec3f {
+    let turn = after - before;
+    let between = before + amount * turn;
+    // Between opposite normals there is no way that would be the right one.
+    if dot(turn, turn) == 0.0 || dot(between, between) < 1e-12 {
+        return after;
+    }
+    return normalize(between);
+}
+
 // A filter's work on a surface, of which `amount` (0..1) counts: less than 1 near the boundary of a soft lens.
 fn faded_surface(before: Surface, after: Surface, amount: f32) -> Surface {
     var s = after;
@@ -91,6 +102,8 @@ fn faded_surface(before: Surface, after: Surface, amount: f32) -> Surface {
     s.metallic = mix(before.metallic, after.metallic, amount);
     s.roughness = mix(before.roughness, after.roughness, amount);
     s.emissive = mix(before.emissive, after.emissive, amount);
+    s.normal = faded_normal(before.normal, after.normal, amount);
+    s.occlusion = mix(before.occlusion, after.occlusion, amount);
     s.opacity = mix(before.opacity, after.opacity, amount);
     s.unlit = mix(before.unlit, after.unlit, amount);
     s.toon.y = mix(before.toon.y, after.toon.y, amount);

@@ -395,7 +395,8 @@ fn pixel_ray(pixel: vec2u) -> PixelRay {
 
 fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
     let size = length(v);
-    if size > 1e-30 {
+    // What is so long that its length is no number has no direction either.
+    if size > 1e-30 && size < 1e38 {
         return v / size;
     }
     return other;

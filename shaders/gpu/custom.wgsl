@@ -35,13 +35,13 @@ fn custom_filtered(op: Op, before: Surface, position: vec3f) -> Surface {
     if any(made.base_color != seen.base_color) {
         s = with_base_color(s, vec4f(made.base_color, 1.0));
     }
-    s.metallic = made.metallic;
-    s.roughness = made.roughness;
+    s.metallic = saturate(made.metallic);
+    s.roughness = saturate(made.roughness);
     s.emissive = made.emissive;
-    s.occlusion = made.occlusion;
+    s.occlusion = saturate(made.occlusion);
     // What the filter makes of the whole opacity, the stack makes of its share.
-    s.opacity = before.opacity * (made.opacity / max(seen.opacity, 1e-6));
-    s.unlit = made.unlit;
+    s.opacity = before.opacity * (saturate(made.opacity) / max(seen.opacity, 1e-6));
+    s.unlit = saturate(made.unlit);
     return s;
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::convert::{g2, g3, v3};
+use super::convert::{g2, g3, v3, v4};
 use crate::appearance as wgsl;
 use crate::custom::SurfaceValue;
 use crate::plan::Plan;
@@ -38,15 +38,16 @@ impl Site<'_> {
         let mut s = before;
         s.normal = v3(Vec3::from_array(made.normal).normalize_or(g3(before.normal)));
         if made.base_color != seen.base_color {
-            s = wgsl::with_base_color(s, super::convert::v4(Vec3::from_array(made.base_color).extend(1.0)));
+            s = wgsl::with_base_color(s, v4(Vec3::from_array(made.base_color).extend(1.0)));
         }
-        s.metallic = made.metallic;
-        s.roughness = made.roughness;
+        let share = |x: f32| x.clamp(0.0, 1.0);
+        s.metallic = share(made.metallic);
+        s.roughness = share(made.roughness);
         s.emissive = v3(Vec3::from_array(made.emissive));
-        s.occlusion = made.occlusion;
+        s.occlusion = share(made.occlusion);
         // What the filter makes of the whole opacity, the stack makes of its share.
-        s.opacity = before.opacity * (made.opacity / seen.opacity.max(1e-6));
-        s.unlit = made.unlit;
+        s.opacity = before.opacity * (share(made.opacity) / seen.opacity.max(1e-6));
+        s.unlit = share(made.unlit);
         s
     }
 

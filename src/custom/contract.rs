@@ -7,27 +7,28 @@ pub const WGSL: &str = include_str!("../../shaders/custom/contract.wgsl");
 pub const NAMES: [&str; 7] =
     ["Surface", "srgb_from_linear", "linear_from_srgb", "luminance", "hash3", "noise3", "stripe"];
 
-/// The member names of `Surface`, in order.
-pub const MEMBERS: [&str; 12] = [
-    "position",
-    "normal",
-    "view",
-    "base_color",
-    "metallic",
-    "roughness",
-    "emissive",
-    "occlusion",
-    "opacity",
-    "unlit",
-    "pixel",
-    "depth",
+/// The members of `Surface` in order, and how many numbers each has.
+pub const MEMBERS: [(&str, usize); 12] = [
+    ("position", 3),
+    ("normal", 3),
+    ("view", 3),
+    ("base_color", 3),
+    ("metallic", 1),
+    ("roughness", 1),
+    ("emissive", 3),
+    ("occlusion", 1),
+    ("opacity", 1),
+    ("unlit", 1),
+    ("pixel", 2),
+    ("depth", 1),
 ];
 
 /// Loop iterations that one call of a filter may take, all its loops and functions together; past them loops end.
 pub const LOOP_BUDGET: u32 = 4096;
 
-/// `Surface` of the contract. Colours are linear light.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// `Surface` of the contract, its numbers without gaps. Colours are linear light.
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct SurfaceValue {
     /// World space, scene units.
     pub position: [f32; 3],
@@ -52,46 +53,27 @@ pub struct SurfaceValue {
 }
 
 /// Numbers in a [`SurfaceValue`].
-pub const SURFACE_WORDS: usize = 23;
+pub const SURFACE_WORDS: usize = size_of::<SurfaceValue>() / size_of::<f32>();
 
-impl SurfaceValue {
-    /// All numbers in the order of the members.
-    pub fn numbers(&self) -> [f32; SURFACE_WORDS] {
-        let mut numbers = [0.0; SURFACE_WORDS];
-        let parts: [&[f32]; 12] = [
-            &self.position,
-            &self.normal,
-            &self.view,
-            &self.base_color,
-            &[self.metallic],
-            &[self.roughness],
-            &self.emissive,
-            &[self.occlusion],
-            &[self.opacity],
-            &[self.unlit],
-            &self.pixel,
-            &[self.depth],
-        ];
-        let all = parts.iter().flat_map(|part| part.iter());
-        numbers.iter_mut().zip(all).for_each(|(number, value)| *number = *value);
-        numbers
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::custom::words;
 
-    /// The inverse of [`SurfaceValue::numbers`].
-    pub fn from_numbers(n: &[f32; SURFACE_WORDS]) -> Self {
-        Self {
-            position: [n[0], n[1], n[2]],
-            normal: [n[3], n[4], n[5]],
-            view: [n[6], n[7], n[8]],
-            base_color: [n[9], n[10], n[11]],
-            metallic: n[12],
-            roughness: n[13],
-            emissive: [n[14], n[15], n[16]],
-            occlusion: n[17],
-            opacity: n[18],
-            unlit: n[19],
-            pixel: [n[20], n[21]],
-            depth: n[22],
-        }
+    #[test]
+    fn the_lists_say_what_the_declarations_say() {
+        let module =
+            naga::front::wgsl::parse_str(WGSL).unwrap_or_else(|error| panic!("{}", error.emit_to_string(WGSL)));
+        let surface = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Surface"));
+        let naga::TypeInner::Struct { members, .. } = &surface.expect("a struct").1.inner else { panic!("a struct") };
+        let numbers = |ty| match module.types[ty].inner {
+            naga::TypeInner::Vector { size, .. } => size as usize,
+            _ => 1,
+        };
+        let declared: Vec<_> =
+            members.iter().map(|member| (member.name.as_deref().unwrap_or(""), numbers(member.ty))).collect();
+        assert_eq!(declared, MEMBERS);
+        assert_eq!(MEMBERS.iter().map(|(_, count)| count).sum::<usize>(), SURFACE_WORDS);
+        assert_eq!(words::top_level(WGSL).iter().map(|word| word.text).collect::<Vec<_>>(), NAMES);
     }
 }

@@ -20,9 +20,13 @@ mod write;
 #[cfg(test)]
 mod tests;
 
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-pub use contract::{LOOP_BUDGET, SURFACE_WORDS, SurfaceValue};
+pub use contract::{LOOP_BUDGET, MEMBERS, SURFACE_WORDS, SurfaceValue};
 pub use params::{FieldKind, ParamField};
 pub use value::{Given, Value};
 pub use write::all as wgsl;
@@ -55,7 +59,29 @@ pub struct Custom {
 }
 
 impl Custom {
-    /// Reads a filter file. `name` is how messages name it.
+    /// Opens a filter file and reads it; messages name it by its path.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no UTF-8, and those of [`Custom::parse`].
+    pub fn open(path: &Path) -> Result<Self, InputError> {
+        let name = path.display().to_string();
+        let cannot = |why: &str| InputError::new(format!("cannot read {name}: {why}"));
+        let mut bytes = Vec::new();
+        // One byte more than there may be is enough to refuse the rest unread.
+        let read = File::open(path).and_then(|file| file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes));
+        read.map_err(|error: io::Error| cannot(&error.to_string()))?;
+        if bytes.len() > MOST_BYTES {
+            return Err(too_large(&name));
+        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = valid.iter().filter(|byte| **byte == b'\n').count() + 1;
+            cannot(&format!("line {line} is not UTF-8")).help("save it as text in UTF-8")
+        })?;
+        Self::parse(&text, &name)
+    }
+
+    /// Reads a filter file's text. `name` is how messages name it.
     ///
     /// # Errors
     /// All that is wrong with the file, with the line: what is no WGSL, what a filter may not use, functions that are
@@ -102,7 +128,7 @@ impl Custom {
         self.color.is_some()
     }
 
-    /// The file's text for a shader, every name of it with the prefix `custom<number>_own_`; see [`wgsl`] for the whole.
+    /// The file's text for a shader, every name of it behind `custom<number>_own_` or `custom<number>_other_`; see [`wgsl`] for the whole.
     ///
     /// It has `fn custom0_surface(s: CustomSurface, first: u32) -> CustomSurface` and
     /// `fn custom0_color(c: vec3f, s: CustomSurface, first: u32) -> vec3f`, each where the file has that function.
@@ -114,33 +140,29 @@ impl Custom {
     /// `filter_surface`; the surface itself where the file has no such function. `words` as [`Custom::values`] gives them.
     pub fn surface(&self, surface: &SurfaceValue, words: &[u32]) -> SurfaceValue {
         let Some(entry) = &self.surface else { return *surface };
-        let numbers = surface.numbers().map(f32::to_bits);
-        self.program.call(entry, &[&numbers, words], |result| {
-            let mut numbers = [0.0; SURFACE_WORDS];
-            numbers.iter_mut().zip(result).for_each(|(to, word)| *to = f32::from_bits(*word));
-            SurfaceValue::from_numbers(&numbers)
-        })
+        let numbers: [u32; SURFACE_WORDS] = bytemuck::cast(*surface);
+        self.program.call(entry, &[&numbers, words], |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
     }
 
     /// `filter_color` of a lit colour in linear light; the colour itself where the file has no such function.
     pub fn color(&self, color: [f32; 3], surface: &SurfaceValue, words: &[u32]) -> [f32; 3] {
         let Some(entry) = &self.color else { return color };
-        let (color, numbers) = (color.map(f32::to_bits), surface.numbers().map(f32::to_bits));
-        self.program.call(entry, &[&color, &numbers, words], |result| {
-            let mut color = [0.0; 3];
-            color.iter_mut().zip(result).for_each(|(to, word)| *to = f32::from_bits(*word));
-            color
-        })
+        let (color, numbers): ([u32; 3], [u32; SURFACE_WORDS]) = (bytemuck::cast(color), bytemuck::cast(*surface));
+        self.program
+            .call(entry, &[&color, &numbers, words], |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
     }
+}
+
+fn too_large(name: &str) -> InputError {
+    InputError::new(format!("{name}: a filter file has at most {MOST_BYTES} bytes, and this one has more"))
+        .help("leave out what the filter does not call")
 }
 
 /// Bounds what naga has to descend into.
 fn size(text: &Text) -> Result<(), InputError> {
     let source = &text.user.text;
     if source.len() > MOST_BYTES {
-        return Err(text
-            .error(None, format!("the file has {} bytes, and a filter file at most {MOST_BYTES}", source.len()))
-            .help("leave out what the filter does not call"));
+        return Err(too_large(&text.user.name));
     }
     let words = words::all(source);
     for statement in words.split(|word| [";", "{", "}"].contains(&word.text)) {
@@ -154,7 +176,7 @@ fn size(text: &Text) -> Result<(), InputError> {
 }
 
 fn read(text: &Text) -> Result<Custom, InputError> {
-    check::directives(text)?;
+    check::words(text)?;
     let mut module = naga::front::wgsl::parse_str(&text.whole).map_err(|error| naga_errors::not_wgsl(text, &error))?;
     check::check(text, &module)?;
     fuel::add(&mut module);
@@ -188,8 +210,10 @@ fn compile(
 ) -> Result<(Program, [Option<Entry>; 2]), InputError> {
     let wanted = [signature.surface, signature.color];
     let functions: Vec<_> = wanted.iter().flatten().map(|filter| filter.function).collect();
-    let (program, entries) = program::compile(module, info, &functions)
-        .map_err(|refusal| text.error(text.place(refusal.span), refusal.message))?;
+    let (program, entries) = program::compile(module, info, &functions).map_err(|refusal| {
+        let error = text.error(text.place(refusal.span), refusal.message);
+        InputError { help: refusal.help.map(str::to_owned), ..error }
+    })?;
     let mut entries = entries.into_iter();
     Ok((program, wanted.map(|filter| filter.and_then(|_| entries.next()))))
 }

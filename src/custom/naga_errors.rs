@@ -4,7 +4,7 @@ use std::error::Error;
 
 use naga::front::wgsl::ParseError;
 use naga::valid::{ExpressionError, FunctionError, ValidationError};
-use naga::{BinaryOperator, Scalar, ScalarKind, TypeInner, WithSpan};
+use naga::{BinaryOperator, Scalar, ScalarKind, TypeInner, UnaryOperator, WithSpan};
 
 use super::source::Text;
 use super::{contract, signature, words};
@@ -27,10 +27,21 @@ pub fn not_wgsl(text: &Text, error: &ParseError) -> InputError {
     }
     if error.notes().chain([error.message()]).any(|note| note.contains("recursion limit")) {
         return text
-            .error(first, "the file nests too deep")
+            .error(words::deepest_bracket(&text.user.text), "the file nests too deep")
             .help("use fewer brackets within brackets; give parts a name with `let`");
     }
-    let mut refusal = text.error(None, plain(error.message()).replace("found \"\"", "found the end of the file"));
+    let message = without_handles(&plain(error.message()).replace("found \"\"", "found the end of the file"));
+    // naga has no place for this one and the next.
+    if let Some((index, _)) = message.strip_prefix("index ").and_then(|rest| rest.split_once(" is out of bounds")) {
+        let place = words::find_run(&text.user.text, &["[", index, "]"]);
+        return text.error(place, format!("there is no element {index}")).help("they count from 0");
+    }
+    if message.starts_with("incompatible operands") && first.is_none() {
+        return text
+            .error(None, "an operator stands between values that it does not work on, such as arrays or structs")
+            .help("take the parts that you need, as in a[0], s.normal or *p");
+    }
+    let mut refusal = text.error(first, message);
     for (span, label) in error.labels() {
         if let Some(place) = text.place(span) {
             let label = if label.is_empty() { "here".to_owned() } else { plain(label) };
@@ -50,8 +61,11 @@ fn quoted<'a>(message: &'a str, beginning: &str) -> Option<&'a str> {
     message.strip_prefix(beginning)?.split_once('`').map(|(name, _)| name)
 }
 
-/// What to do about a name that nothing declares.
+/// What to do about a name that nothing declares, or about what naga does not have.
 fn remedy(text: &Text, message: &str) -> Option<String> {
+    if message.contains("not yet implemented") {
+        return Some("leave it out".to_owned());
+    }
     let unknown = quoted(message, "no definition in scope for identifier: `")?;
     if unknown == signature::PARAMS {
         return Some("declare struct Params { strength: f32, }, or leave the argument out".to_owned());
@@ -68,7 +82,7 @@ pub fn not_valid(text: &Text, error: &WithSpan<ValidationError>) -> InputError {
         match source {
             FunctionError::InvalidReturnType { expression: None, .. } => {
                 return text
-                    .error_at_word(name, format!("`{name}` can end without a `return` of what it gives"))
+                    .error_at_name(name, format!("`{name}` can end without a `return` of what it gives"))
                     .help("end every way through it with `return`");
             }
             FunctionError::Expression {
@@ -79,6 +93,15 @@ pub fn not_valid(text: &Text, error: &WithSpan<ValidationError>) -> InputError {
                 return text
                     .error(place, format!("`{}` does not work on {left} and {right}", sign(*op)))
                     .help("convert one of them, as in f32(i), or take the parts that you need, as in v.xy");
+            }
+            FunctionError::Expression { source: ExpressionError::InvalidUnaryOperandType(op, _), .. } => {
+                let (sign, works) = match op {
+                    UnaryOperator::Negate => ("-", "f32 and i32"),
+                    UnaryOperator::LogicalNot => ("!", "bool"),
+                    UnaryOperator::BitwiseNot => ("~", "i32 and u32"),
+                };
+                let message = format!("`{sign}` works on {works}, and vectors of these");
+                return text.error(place, message).help("convert what stands behind it, or compare it");
             }
             _ => {}
         }

@@ -85,9 +85,9 @@ pub fn read(text: &Text, module: &Module, ty: Handle<Type>) -> Result<Vec<ParamF
         .collect()
 }
 
-/// The default that a comment names, `= 0.5: how strong`, and the rest of it.
+/// The default that a comment names, `= 0.5: how strong`, and the rest of it. A rule (`====`) names none.
 fn split(comment: &str) -> (Option<&str>, &str) {
-    match comment.strip_prefix('=') {
+    match comment.strip_prefix('=').filter(|rest| !rest.starts_with('=')) {
         Some(rest) => {
             let (default, doc) = rest.split_once(':').unwrap_or((rest, ""));
             (Some(default.trim()), doc.trim())
@@ -149,9 +149,13 @@ fn members(text: &str) -> Vec<words::Word<'_>> {
     inside.windows(2).filter(|pair| pair[1].text == ":").map(|pair| pair[0].clone()).collect()
 }
 
-/// The comment lines that end where a text does.
+/// The comment lines that end where a text does; none for a member that is not the first on its line.
 fn above(text: &str) -> String {
-    let lines = text.lines().rev().skip(usize::from(!text.ends_with('\n')));
+    let (lines, beside) = text.rsplit_once('\n').unwrap_or(("", text));
+    if beside.contains(['{', ',']) {
+        return String::new();
+    }
+    let lines = lines.lines().rev();
     let mut comment: Vec<&str> = lines.map_while(|line| line.trim().strip_prefix("//")).map(bare).collect();
     comment.reverse();
     comment.join(" ")
@@ -174,6 +178,7 @@ mod tests {
                 // = [1, 2]: above,
                 // on two lines
                 b: vec2f,
+                // of c
                 c: f32, d: f32, // of d
 
                 // = 3: help is above
@@ -181,11 +186,14 @@ mod tests {
                 @align(16) f: f32,
             }
             struct Other { g: f32, }";
+        let one_line = "// of all\nstruct Params { a: f32 }";
+        assert_eq!(comments(one_line)[0].text, "");
+        assert_eq!(split("==== colours ===="), (None, "==== colours ===="));
         let found: Vec<_> = comments(text).into_iter().map(|c| (c.name.to_owned(), c.text)).collect();
         let expected = [
             ("a", "= 0.5: how strong"),
             ("b", "= [1, 2]: above, on two lines"),
-            ("c", ""),
+            ("c", "of c"),
             ("d", "of d"),
             ("e", "= 4: help is above"),
             ("f", ""),

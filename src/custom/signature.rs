@@ -3,13 +3,15 @@
 use naga::{Function, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 
 use super::source::Text;
-use super::{walk, words};
+use super::words;
 use crate::InputError;
 use crate::spec::read::suggest;
 
 pub const FILTER_SURFACE: &str = "filter_surface";
 pub const FILTER_COLOR: &str = "filter_color";
 pub const PARAMS: &str = "Params";
+/// Of the contract.
+pub const SURFACE: &str = "Surface";
 
 /// One of the two functions.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +39,6 @@ pub fn find(text: &Text, module: &Module) -> Result<Signature, InputError> {
     if signature.surface.is_none() && signature.color.is_none() {
         return Err(neither(text));
     }
-    calls(text, module)?;
     Ok(signature)
 }
 
@@ -46,7 +47,7 @@ fn neither(text: &Text) -> InputError {
     let slip = declared.filter_map(|name| Some((name, suggest::nearest(name, [FILTER_SURFACE, FILTER_COLOR])?))).next();
     let message = format!("a filter file needs `fn {FILTER_SURFACE}` or `fn {FILTER_COLOR}`, or both");
     match slip {
-        Some((name, near)) => text.error_at_word(name, message).help(format!("did you mean `{near}`?")),
+        Some((name, near)) => text.error_at_name(name, message).help(format!("did you mean `{near}`?")),
         None => text.error(None, message).help(format!("write {} {{ ... }}", wanted(FILTER_SURFACE, false))),
     }
 }
@@ -72,7 +73,7 @@ fn filter(
 ) -> Result<Option<Filter>, InputError> {
     let found = module.functions.iter().find(|(_, function)| function.name.as_deref() == Some(name));
     let Some((handle, function)) = found else { return Ok(None) };
-    let surface = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Surface")).map(|(handle, _)| handle);
+    let surface = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(SURFACE)).map(|(handle, _)| handle);
     let is_surface = |ty: Handle<Type>| Some(ty) == surface;
     let color = TypeInner::Vector { size: VectorSize::Tri, scalar: Scalar::F32 };
     let is_color = |ty: Handle<Type>| module.types[ty].inner == color;
@@ -96,7 +97,7 @@ fn filter(
     match takes_params {
         Some(takes_params) if gives => Ok(Some(Filter { function: handle, takes_params })),
         _ => Err(text
-            .error_at_word(name, format!("`{name}` must take and give what lenspeel calls it with"))
+            .error_at_name(name, format!("`{name}` must take and give what lenspeel calls it with"))
             .help(format!("write {}", wanted(name, params.is_some())))),
     }
 }
@@ -107,32 +108,4 @@ fn wanted(name: &str, params: bool) -> String {
         FILTER_SURFACE => format!("fn {name}(s: Surface{last}) -> Surface"),
         _ => format!("fn {name}(c: vec3f, s: Surface{last}) -> vec3f"),
     }
-}
-
-/// Function calls that one call of a filter may come to, each loop taken once.
-const MOST_CALLS: usize = 4096;
-
-/// Refuses functions that call each other so often that no loop is needed to take forever.
-fn calls(text: &Text, module: &Module) -> Result<(), InputError> {
-    let mut counts: Vec<usize> = Vec::with_capacity(module.functions.len());
-    for (handle, function) in module.functions.iter() {
-        let mut count = 1_usize;
-        walk::statements(&function.body, &mut |statement, _| {
-            if let naga::Statement::Call { function, .. } = statement {
-                count = count.saturating_add(counts.get(function.index()).copied().unwrap_or(1));
-            }
-            if count > MOST_CALLS {
-                let name = function.name.as_deref().unwrap_or_default();
-                return Err(text
-                    .error(
-                        text.place(module.functions.get_span(handle)),
-                        format!("`{name}` calls functions that call functions more than {MOST_CALLS} times in all"),
-                    )
-                    .help("call them in a loop, or keep their results in a variable"));
-            }
-            Ok(())
-        })?;
-        counts.push(count);
-    }
-    Ok(())
 }

@@ -18,6 +18,8 @@ pub struct Text {
 
 impl Text {
     pub fn new(source: &str, name: &str) -> Self {
+        // Some editors put a byte order mark in front.
+        let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         Self {
             user: Source { name: name.to_owned(), text: source.into() },
             whole: format!("{}{source}", contract::WGSL),
@@ -34,16 +36,17 @@ impl Text {
         Some(start..(range.end - START).clamp(start, line_end))
     }
 
-    /// An error at a place of the file, or about the whole of it where the place is not known.
+    /// An error at a place of the file, or about the whole of it where the place is not known; whoever asked for the
+    /// file adds its own.
     pub fn error(&self, place: Option<Range<usize>>, message: impl Into<String>) -> InputError {
         match place {
             Some(place) => InputError::at(&self.user, place, message),
-            None => InputError { source_text: Some(self.user.clone()), ..InputError::new(message) },
+            None => InputError::new(format!("{}: {}", self.user.name, message.into())),
         }
     }
 
-    /// An error at the word that declares or names a thing, the first such word of the file.
-    pub fn error_at_word(&self, word: &str, message: impl Into<String>) -> InputError {
-        self.error(words::find(&self.user.text, word), message)
+    /// An error where the file declares a name.
+    pub fn error_at_name(&self, name: &str, message: impl Into<String>) -> InputError {
+        self.error(words::declaration(&self.user.text, name).map(|(_, place)| place), message)
     }
 }

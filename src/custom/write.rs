@@ -9,14 +9,18 @@ use naga::valid::ModuleInfo;
 
 use super::contract::{LOOP_BUDGET, MEMBERS};
 use super::params::{FieldKind, ParamField};
-use super::signature::{FILTER_COLOR, FILTER_SURFACE, Filter, PARAMS, Signature};
+use super::signature::{FILTER_COLOR, FILTER_SURFACE, Filter, PARAMS, SURFACE, Signature};
 use super::{Custom, fuel};
 
 /// Stands for `custom0_`, `custom1_` and so on until the number is known.
-const PREFIX: &str = "custom_number_";
+pub const PREFIX: &str = "custom_number_";
 
-/// Before every name of the file's own; what stands in front of it is ours.
+/// Before the names that lenspeel calls the file by.
 const OWN: &str = "custom_number_own_";
+
+/// Before all other names of the file's own: naga's writer makes `a_b` of `a__b` and of `a_b_`, and the names above must
+/// stay as they are.
+const OTHER: &str = "custom_number_other_";
 
 /// The names of the host's side.
 const HOST_SURFACE: &str = "CustomSurface";
@@ -52,7 +56,8 @@ pub fn numbered(text: &str, number: usize) -> String {
 fn rename(module: &mut Module) {
     let prefixed = |name: &mut Option<String>| {
         if let Some(name) = name {
-            name.insert_str(0, OWN);
+            let is_called = [SURFACE, PARAMS, FILTER_SURFACE, FILTER_COLOR].contains(&name.as_str());
+            name.insert_str(0, if is_called { OWN } else { OTHER });
         }
     };
     let mut types = naga::UniqueArena::new();
@@ -124,7 +129,7 @@ fn {PREFIX}surface(s: {HOST_SURFACE}, first: u32) -> {HOST_SURFACE} {{
     return {};
 }}
 ",
-        surface(&format!("{OWN}Surface"), "s"),
+        surface(&format!("{OWN}{SURFACE}"), "s"),
         surface(HOST_SURFACE, "r"),
         fuel = fuel::FUEL,
     )
@@ -139,7 +144,7 @@ fn {PREFIX}color(c: vec3f, s: {HOST_SURFACE}, first: u32) -> vec3f {{
     return {OWN}{FILTER_COLOR}(c, {}{params});
 }}
 ",
-        surface(&format!("{OWN}Surface"), "s"),
+        surface(&format!("{OWN}{SURFACE}"), "s"),
         fuel = fuel::FUEL,
     )
 }
@@ -150,7 +155,7 @@ fn params_argument(filter: &Filter) -> String {
 
 /// A surface of one type made of a surface of another.
 fn surface(ty: &str, from: &str) -> String {
-    let members: Vec<String> = MEMBERS.iter().map(|member| format!("{from}.{member}")).collect();
+    let members: Vec<String> = MEMBERS.iter().map(|(member, _)| format!("{from}.{member}")).collect();
     format!("{ty}({})", members.join(", "))
 }
 

@@ -151,10 +151,7 @@ impl Scene {
 
     fn add_custom(&mut self, path: &Path) -> Result<(), InputError> {
         if !self.custom_filters.contains_key(path) {
-            let text = std::fs::read_to_string(path)
-                .map_err(|error| InputError::new(format!("cannot read {}: {error}", path.display())))?;
-            self.custom_filters
-                .insert(path.to_path_buf(), Arc::new(Custom::parse(&text, &path.display().to_string())?));
+            self.custom_filters.insert(path.to_path_buf(), Arc::new(Custom::open(path)?));
         }
         Ok(())
     }

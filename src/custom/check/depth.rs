@@ -1,15 +1,43 @@
-//! How deep expressions nest.
+//! How deep expressions and statements nest.
 
-use naga::{Expression, Function, Handle};
+use naga::{Block, Expression, Function, Handle, Span, Statement};
 
 use crate::InputError;
 use crate::custom::source::Text;
+use crate::custom::walk;
 
 /// How deep expressions may nest: what is written for the GPU has a pair of brackets for each level, and shader
 /// compilers bound those.
 const MOST_DEPTH: usize = 64;
 
+/// Braces within braces, as a function is written for the GPU; naga reads 127.
+const MOST_BRACES: usize = 120;
+
 pub fn check(text: &Text, function: &Function) -> Result<(), InputError> {
+    expressions(text, function)?;
+    statements(&function.body, 1).map_err(|span| {
+        text.error(text.place(span), "`if`, `switch` and loops nest too deep here").help(
+            "make a part of it a function; write a long chain of `else if` as `switch`, or one `if` after another",
+        )
+    })
+}
+
+/// `braces`: how many are open around the block. Gives the place of a statement that has too many.
+fn statements(block: &Block, braces: usize) -> Result<(), Span> {
+    for (statement, span) in block.span_iter() {
+        // A case has braces of its own, and so has `continuing`.
+        let more = if matches!(statement, Statement::Switch { .. } | Statement::Loop { .. }) { 2 } else { 1 };
+        for inner in walk::blocks(statement) {
+            if braces + more > MOST_BRACES {
+                return Err(*span);
+            }
+            statements(inner, braces + more)?;
+        }
+    }
+    Ok(())
+}
+
+fn expressions(text: &Text, function: &Function) -> Result<(), InputError> {
     let mut depths = Vec::with_capacity(function.expressions.len());
     for (handle, expression) in function.expressions.iter() {
         let mut deepest = 0;

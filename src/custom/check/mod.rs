@@ -4,12 +4,12 @@ mod depth;
 pub mod types;
 
 use naga::{
-    AddressSpace, DerivativeControl, Expression, Function, MathFunction, Module, RelationalFunction, Scalar, Span,
-    Statement, TypeInner,
+    AddressSpace, DerivativeControl, Expression, Function, Handle, MathFunction, Module, RelationalFunction, Scalar,
+    Span, Statement, TypeInner,
 };
 
 use super::source::Text;
-use super::{program, walk, words};
+use super::{contract, program, walk, words, write};
 use crate::InputError;
 use types::{is_known, name_of};
 
@@ -29,7 +29,7 @@ fn refuse(text: &Text, span: Span, what: &str, help: &str) -> InputError {
 fn entry_points(text: &Text, module: &Module) -> Result<(), InputError> {
     let Some(entry) = module.entry_points.first() else { return Ok(()) };
     Err(text
-        .error_at_word(&entry.name, format!("`{}` is an entry point, which a filter file has none of", entry.name))
+        .error_at_name(&entry.name, format!("`{}` is an entry point, which a filter file has none of", entry.name))
         .help("take its attributes away: lenspeel calls `filter_surface` and `filter_color` itself"))
 }
 
@@ -52,7 +52,7 @@ fn globals(text: &Text, module: &Module) -> Result<(), InputError> {
         AddressSpace::Handle => match module.types[variable.ty].inner {
             TypeInner::Sampler { .. } => ("a sampler", NO_TEXTURES),
             TypeInner::Image { .. } => ("a texture", NO_TEXTURES),
-            _ => ("a resource of the GPU", "a filter reads its arguments and nothing else"),
+            _ => ("a `var` outside of functions", "use a local `var`, or `const` for a fixed value"),
         },
         _ => ("a variable of the GPU", "a filter reads its arguments and nothing else"),
     };
@@ -71,8 +71,36 @@ fn body(text: &Text, module: &Module, function: &Function) -> Result<(), InputEr
     }
     walk::statements(&function.body, &mut |statement, span| match statement_refused(statement) {
         Some((what, help)) => Err(refuse(text, span, what, help)),
-        None => Ok(()),
+        None => arguments(text, module, function, statement),
     })
+}
+
+/// WGSL lets a function take pointers to whole variables only, which naga does not check, and not all of its backends can
+/// write.
+fn arguments(text: &Text, module: &Module, function: &Function, statement: &Statement) -> Result<(), InputError> {
+    let Statement::Call { arguments, .. } = statement else { return Ok(()) };
+    let part = arguments.iter().find(|argument| is_pointer_to_part(module, function, **argument));
+    let Some(part) = part else { return Ok(()) };
+    let message = "a function cannot take a pointer to a part of a variable";
+    Err(text
+        .error(text.place(function.expressions.get_span(*part)), message)
+        .help("pass a pointer to the whole; or copy the part to a `var`, pass a pointer to that, and copy it back"))
+}
+
+fn is_pointer_to_part(module: &Module, function: &Function, handle: Handle<Expression>) -> bool {
+    let mut root = handle;
+    while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = function.expressions[root] {
+        root = base;
+    }
+    let is_pointer = match function.expressions[root] {
+        Expression::LocalVariable(_) => true,
+        Expression::FunctionArgument(index) => {
+            let ty = function.arguments[index as usize].ty;
+            matches!(module.types[ty].inner, TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. })
+        }
+        _ => false,
+    };
+    is_pointer && root != handle
 }
 
 const ONE_SAMPLE: &str = "a filter sees one sample; use s.pixel and s.depth";
@@ -153,8 +181,14 @@ fn statement_refused(statement: &Statement) -> Option<(&'static str, &'static st
     })
 }
 
+/// What naga could not find wrong, or not where it is: the contract and the user's text are one to it.
+pub fn words(text: &Text) -> Result<(), InputError> {
+    directives(text)?;
+    names(text)
+}
+
 /// `enable`, `requires` and `diagnostic` at the top of a file, which naga would not see there: the contract is in front.
-pub fn directives(text: &Text) -> Result<(), InputError> {
+fn directives(text: &Text) -> Result<(), InputError> {
     let words = words::all(&text.user.text);
     let starts = std::iter::once(None).chain(words.iter().map(|word| Some(word.text)));
     for (before, word) in starts.zip(&words) {
@@ -170,4 +204,21 @@ pub fn directives(text: &Text) -> Result<(), InputError> {
         }
     }
     Ok(())
+}
+
+/// Names that would mean something else to the contract's functions, or that the GPU's text gives meaning to.
+fn names(text: &Text) -> Result<(), InputError> {
+    let used = words::used(contract::WGSL);
+    if let Some(word) = words::top_level(&text.user.text).into_iter().find(|word| used.contains(word.text)) {
+        let message =
+            format!("`{}` is a name of WGSL itself, which the functions that every file finds use", word.text);
+        return Err(text.error(Some(word.span), message).help("choose another name"));
+    }
+    let taken = words::all(&text.user.text).into_iter().find(|word| word.text.contains(write::PREFIX));
+    match taken {
+        Some(word) => Err(text
+            .error(Some(word.span), format!("names with `{}` in them are taken", write::PREFIX))
+            .help("choose another name")),
+        None => Ok(()),
+    }
 }

@@ -14,6 +14,7 @@ const MOST_WORDS: usize = 1024;
 const MOST_NESTING: usize = 16;
 
 pub fn check(text: &Text, module: &Module) -> Result<(), InputError> {
+    results(text, module)?;
     let layout = program::Layout::new(&module.types);
     let mut depths = Vec::with_capacity(module.types.len());
     for (handle, ty) in module.types.iter() {
@@ -27,15 +28,33 @@ pub fn check(text: &Text, module: &Module) -> Result<(), InputError> {
         };
         depths.push(depth);
         let name = ty.name.as_deref().map_or("a type".to_owned(), |name| format!("`{name}`"));
+        let place = || text.place(span).or_else(|| words::find_start(&text.user.text, "array"));
         if layout.of(handle) > MOST_WORDS {
             let message =
                 format!("{name} takes {} numbers, and a filter's values at most {MOST_WORDS}", layout.of(handle));
-            return Err(text.error(text.place(span), message).help("use a smaller array"));
+            return Err(text.error(place(), message).help("use a smaller array"));
         }
         if depth > MOST_NESTING {
             let message = format!("{name} is made of types more than {MOST_NESTING} deep");
-            return Err(text.error(text.place(span), message).help("use fewer levels"));
+            return Err(text.error(place(), message).help("use fewer levels"));
         }
+    }
+    Ok(())
+}
+
+/// What `modf` and `frexp` give has a type without a name in WGSL, so that nothing else can be written with it.
+fn results(text: &Text, module: &Module) -> Result<(), InputError> {
+    let is_result = |ty: Handle<Type>| module.special_types.predeclared_types.values().any(|result| *result == ty);
+    for (_, function) in module.functions.iter() {
+        if let Some((handle, _)) = function.local_variables.iter().find(|(_, variable)| is_result(variable.ty)) {
+            let span = function.local_variables.get_span(handle);
+            return Err(refuse_type(text, span, "var", "a `var` for what `modf` or `frexp` gives is", "use `let`"));
+        }
+    }
+    let of_results = |ty: &Type| matches!(ty.inner, TypeInner::Array { base, .. } if is_result(base));
+    if module.types.iter().any(|(_, ty)| of_results(ty)) {
+        let what = "an array of what `modf` or `frexp` gives is";
+        return Err(refuse_type(text, Span::UNDEFINED, "array", what, "make one of the parts that you need"));
     }
     Ok(())
 }

@@ -15,13 +15,28 @@ use crate::custom::walk;
 pub struct Refusal {
     pub span: naga::Span,
     pub message: String,
+    /// What to do about it.
+    pub help: Option<&'static str>,
 }
 
 impl Refusal {
     pub fn new(span: naga::Span, message: impl Into<String>) -> Self {
-        Self { span, message: message.into() }
+        Self { span, message: message.into(), help: None }
+    }
+
+    fn help(self, help: &'static str) -> Self {
+        Self { help: Some(help), ..self }
+    }
+
+    /// With another place where it has none.
+    fn or_at(self, span: naga::Span) -> Self {
+        if self.span.is_defined() { self } else { Self { span, ..self } }
     }
 }
+
+/// Numbers that one call of a function may compute or move, with all that it calls and each loop taken once. Shader
+/// compilers write the calls out, so this bounds their work, too.
+const MOST_WORK: usize = 100_000;
 
 /// Compiles functions with all that they call; the entries come in the order asked for.
 pub fn compile(
@@ -32,8 +47,24 @@ pub fn compile(
     let mut compiler = Compiler::new(module, info);
     compiler.globals()?;
     let needed = needed(module, wanted);
-    for (handle, _) in module.functions.iter().filter(|(handle, _)| needed[handle.index()]) {
-        let entry = Body::compile(&mut compiler, handle)?;
+    let mut work = HashMap::new();
+    for (handle, function) in module.functions.iter().filter(|(handle, _)| needed[handle.index()]) {
+        let span = module.functions.get_span(handle);
+        let entry = Body::compile(&mut compiler, handle).map_err(|refusal| refusal.or_at(span))?;
+        let of_step = |step: &Step| match step {
+            Step::Call { function, .. } => work.get(function).copied().unwrap_or(0),
+            step => step.words(),
+        };
+        let total = compiler.steps[entry.start as usize..].iter().map(of_step).fold(0, usize::saturating_add);
+        if total > MOST_WORK {
+            let name = function.name.as_deref().unwrap_or_default();
+            let message =
+                format!("`{name}` computes {total} numbers, each loop taken once, and {MOST_WORK} are the most");
+            return Err(
+                Refusal::new(span, message).help("call functions in a loop, or keep what they gave in a variable")
+            );
+        }
+        work.insert(entry.start, total);
         compiler.functions.insert(handle, entry);
     }
     let missing = || Refusal::new(naga::Span::UNDEFINED, "a function is missing");
@@ -124,10 +155,8 @@ impl<'a> Compiler<'a> {
     pub fn room(&mut self, count: usize, span: naga::Span) -> Result<Stretch, Refusal> {
         let at = self.image.len();
         if at.saturating_add(count) > MOST_MEMORY {
-            return Err(Refusal::new(
-                span,
-                format!("the file's variables and values need more than {MOST_MEMORY} numbers of memory"),
-            ));
+            let message = format!("the file's variables and values need more than {MOST_MEMORY} numbers of memory");
+            return Err(Refusal::new(span, message).help("use smaller arrays, and copy them less often"));
         }
         self.image.resize(at + count, 0);
         Ok(Stretch { at: at as Address, count: count as u32 })

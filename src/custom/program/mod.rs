@@ -180,6 +180,17 @@ impl Program {
 }
 
 impl Step {
+    /// How many numbers the step computes or moves; 1 for a jump.
+    fn words(&self) -> usize {
+        let count = match self {
+            Step::Each1 { to, .. } | Step::Each2 { to, .. } | Step::Each3 { to, .. } => to.count,
+            Step::Whole { to, .. } | Step::Product { to, .. } | Step::Load { to, .. } => to.count,
+            Step::Copy { from, .. } | Step::Store { from, .. } => from.count,
+            _ => 1,
+        };
+        count as usize
+    }
+
     /// Does the step and says which comes after it: `next` unless it jumps.
     #[inline]
     fn act(&self, memory: &mut [u32], next: Target) -> Target {

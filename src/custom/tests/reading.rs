@@ -148,13 +148,53 @@ fn lines_may_end_as_on_windows() {
     assert_eq!((custom.params()[0].doc.as_str(), custom.params()[0].default[0]), ("how much", 2.0_f32.to_bits()));
 }
 
+/// Why a file with these declarations, and a filter that changes nothing, is refused.
+fn refusal(declarations: &str) -> String {
+    let text = format!("{declarations} fn filter_color(c: vec3f, s: Surface) -> vec3f {{ return c; }}");
+    Custom::parse(&text, "test.wgsl").expect_err(declarations).to_string()
+}
+
 #[test]
-fn what_naga_cannot_write_back_is_refused_here() {
-    // The result of `modf` has a type without a name in WGSL, which naga's writer names.
-    let text =
-        "fn filter_color(c: vec3f, s: Surface) -> vec3f { var m = modf(c.x); m.fract += 1.0; return vec3f(m.fract); }";
-    let error = Custom::parse(text, "modf.wgsl").expect_err("no text for the GPU").to_string();
-    assert!(error.contains("cannot be written for the GPU"), "{error}");
+fn names_by_which_the_contract_goes_are_taken_and_no_others() {
+    // Declared by the file, they would mean the same to the contract's functions, in front of it.
+    for declaration in [
+        "fn max(a: f32, b: f32) -> f32 { return a; }",
+        "fn mix(a: f32, b: f32, t: f32) -> f32 { return a; }",
+        "const clamp = 1;",
+        "alias f32 = i32;",
+        "struct vec3f { a: i32 }",
+    ] {
+        let error = refusal(declaration);
+        assert!(error.starts_with("test.wgsl:1: ") && error.contains("a name of WGSL itself"), "{error}");
+    }
+    let taken = refusal("fn f(custom_number_x: f32) {}");
+    assert!(taken.contains("test.wgsl:1: names with `custom_number_` in them are taken"), "{taken}");
+    let custom = read(
+        "fn min(x: f32) -> f32 { return x + 1.0; } const z = 2.0; fn read(low: f32) -> f32 { let max = low; return max; }
+        fn filter_color(c: vec3f, s: Surface) -> vec3f { return vec3f(min(c.x), z, read(c.y)); }",
+    );
+    assert_eq!(custom.color([1.0, 3.0, 0.0], &SURFACE, &[]), [2.0, 2.0, 3.0]);
+}
+
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let text = "\u{feff}fn filter_color(c: vec3f, s: Surface) -> vec3f { return c; }";
+    assert!(read(text).has_color());
+    let error = Custom::parse(&text.replace("return c", "return d"), "test.wgsl").expect_err("no `d`");
+    assert_eq!(error.labels[0].0, 56..57, "columns count from behind it");
+}
+
+#[test]
+fn what_modf_gives_may_have_a_name_but_no_variable() {
+    let of = |body: &str| format!("fn filter_color(c: vec3f, s: Surface) -> vec3f {{ {body} }}");
+    for (body, part) in [
+        ("var m = modf(c.x); m.fract += 1.0; return vec3f(m.fract);", "a `var` for what `modf` or `frexp` gives"),
+        ("let m = array(frexp(c), frexp(c)); return m[0].fract;", "an array of what `modf` or `frexp` gives"),
+    ] {
+        let error = Custom::parse(&of(body), "test.wgsl").expect_err("no text for the GPU").to_string();
+        assert!(error.starts_with("test.wgsl:1: ") && error.contains(part), "{error}");
+    }
+    assert_eq!(read(&of("let m = modf(c); return m.fract;")).color([1.5, 2.0, 3.25], &SURFACE, &[]), [0.5, 0.0, 0.25]);
 }
 
 #[test]
