@@ -8,14 +8,6 @@ struct Varying {
     @location(2) depth: f32,
 }
 
-// Some fields of the record of an `Item`.
-struct Shown {
-    @location(1) row_x: vec4f,
-    @location(2) row_y: vec4f,
-    @location(3) row_z: vec4f,
-    @location(4) base_vertex: u32,
-}
-
 @vertex
 fn vertex(
     @location(0) local: vec3f,
@@ -23,18 +15,12 @@ fn vertex(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) item: u32,
 ) -> Varying {
-    let at = vec4f(local, 1.0);
-    let p = vec3f(dot(shown.row_x, at), dot(shown.row_y, at), dot(shown.row_z, at));
+    let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
     // Reverse-Z: infinite far plane in perspective, linear otherwise.
-    var clip = vec4f(dot(p, frame.right.xyz), dot(p, frame.up.xyz), frame.near, depth);
-    if frame.perspective == 0u {
-        clip.z = (frame.far - depth) / (frame.far - frame.near);
-        clip.w = 1.0;
-    }
-    let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
+    let position = clip_position(p, depth, (frame.far - depth) / (frame.far - frame.near));
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
-    return Varying(vec4f(moved, clip.zw), item, vertex - shown.base_vertex, depth);
+    return Varying(position, item, vertex - shown.base_vertex, depth);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.

@@ -42,8 +42,8 @@ impl Module {
     fn parts(self) -> &'static [&'static [&'static str]] {
         match self {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
-            Module::Visibility => &[&[LISTS, VISIBILITY], VOLUMES, CLASSIFYING],
-            Module::Caps => &[&[LISTS, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
+            Module::Visibility => &[&[LISTS, DRAWN, VISIBILITY], VOLUMES, CLASSIFYING],
+            Module::Caps => &[&[LISTS, DRAWN, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
@@ -74,6 +74,7 @@ const STACK: &str = include_str!("../../shaders/gpu/stack.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
 const LISTS: &str = include_str!("../../shaders/gpu/lists.wgsl");
+const DRAWN: &str = include_str!("../../shaders/gpu/drawn.wgsl");
 const FIND_CAPS: &str = include_str!("../../shaders/gpu/find_caps.wgsl");
 const CLOSING: &str = include_str!("../../shaders/gpu/closing.wgsl");
 const BOUNDARY: &str = include_str!("../../shaders/gpu/boundary.wgsl");
