@@ -33,6 +33,15 @@ pub fn fade_one(case: &mut Case, random: &mut Random) {
     case.lenses[lens].soft = tidy(random.between(0.02, 0.15));
 }
 
+/// Makes a lens close what it cuts.
+pub fn cap_one(case: &mut Case, random: &mut Random) {
+    let number = random.index(case.lenses.len());
+    let lens = &mut case.lenses[number];
+    (lens.enabled, lens.by_object) = (true, false);
+    let what = if random.chance(0.5) { Patterns::default() } else { filter::patterns(random) };
+    lens.filters = vec![Filter::Erase(what, Some(filter::cap(random)))];
+}
+
 fn lens(case: &Case, name: String, moves: bool, random: &mut Random) -> Lens {
     let attach = attach(case, random);
     // What hangs on the camera stands before it.
@@ -66,7 +75,7 @@ fn lens(case: &Case, name: String, moves: bool, random: &mut Random) -> Lens {
 }
 
 fn removes(filter: &Filter) -> bool {
-    matches!(filter, Filter::Erase(_) | Filter::ShowAlternate(_) | Filter::ShowNodes(_))
+    matches!(filter, Filter::Erase(..) | Filter::ShowAlternate(_) | Filter::ShowNodes(_))
 }
 
 fn attach(case: &Case, random: &mut Random) -> Attach {
