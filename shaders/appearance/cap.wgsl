@@ -57,14 +57,8 @@ fn cap_direction(normal: vec3f, variant: u32) -> vec3f {
 
 // How many lines a pixel spans on the plane through `position` with `normal`.
 fn cap_span(ray: PixelRay, position: vec3f, normal: vec3f, direction: vec3f) -> f32 {
-    let depth = dot(position - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
-    let facing = dot(normal, ray.direction);
-    let slope = 1.0 / select(facing, 1e-4, abs(facing) < 1e-4);
-    let across_x = ray.origin_dx + ray.direction_dx * depth;
-    let across_y = ray.origin_dy + ray.direction_dy * depth;
-    let on_x = across_x - ray.direction * (dot(normal, across_x) * slope);
-    let on_y = across_y - ray.direction * (dot(normal, across_y) * slope);
-    return abs(dot(on_x, direction)) + abs(dot(on_y, direction));
+    let steps = steps_at(ray, position, normal);
+    return abs(dot(steps.right, direction)) + abs(dot(steps.down, direction));
 }
 
 // The share of a pixel that lines cover: `along` lines from the first, where the pixel spans `span` of them. Exact for a

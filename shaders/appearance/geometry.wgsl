@@ -155,14 +155,32 @@ fn facing_normal(normal: vec3f, geometric: vec3f, view: vec3f) -> vec3f {
     return normal;
 }
 
-// World lengths that a pixel's step to the right and down span on the plane through `position` with `normal`.
-fn position_footprint(ray: PixelRay, position: vec3f, normal: vec3f) -> vec2f {
-    let depth = dot(position - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+// Where a pixel's step to the right and one down lead along a plane.
+struct PlaneSteps {
+    right: vec3f,
+    down: vec3f,
+}
+
+// On the plane with `normal` that the ray meets at `depth`. `least`: stands for all that is less of how much the plane
+// faces the ray.
+fn plane_steps(ray: PixelRay, depth: f32, normal: vec3f, least: f32) -> PlaneSteps {
     let facing = dot(normal, ray.direction);
-    let slope = 1.0 / select(facing, 1e-4, abs(facing) < 1e-4);
+    let slope = 1.0 / select(facing, least, abs(facing) < least);
     let across_x = ray.origin_dx + ray.direction_dx * depth;
     let across_y = ray.origin_dy + ray.direction_dy * depth;
-    let on_x = across_x - ray.direction * (dot(normal, across_x) * slope);
-    let on_y = across_y - ray.direction * (dot(normal, across_y) * slope);
-    return vec2f(length(on_x), length(on_y));
+    let right = across_x - ray.direction * (dot(normal, across_x) * slope);
+    let down = across_y - ray.direction * (dot(normal, across_y) * slope);
+    return PlaneSteps(right, down);
+}
+
+// World lengths that a pixel's step to the right and down span on the plane through `position` with `normal`.
+fn position_footprint(ray: PixelRay, position: vec3f, normal: vec3f) -> vec2f {
+    let steps = steps_at(ray, position, normal);
+    return vec2f(length(steps.right), length(steps.down));
+}
+
+// On the plane through `position`, which the ray meets there.
+fn steps_at(ray: PixelRay, position: vec3f, normal: vec3f) -> PlaneSteps {
+    let depth = dot(position - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+    return plane_steps(ray, depth, normal, 1e-4);
 }

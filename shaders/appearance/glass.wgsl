@@ -74,13 +74,8 @@ fn contact_distance(ray: PixelRay, depth: f32, normal: vec3f, gap: f32, lens_nor
 // The same to a plane: how far the fragment is from it, over how much that changes from pixel to pixel along the
 // fragment's surface.
 fn plane_distance(ray: PixelRay, depth: f32, normal: vec3f, gap: f32, plane_normal: vec3f) -> f32 {
-    let facing = dot(normal, ray.direction);
-    let slope = 1.0 / select(facing, 1e-20, abs(facing) < 1e-20);
-    let across_x = ray.origin_dx + ray.direction_dx * depth;
-    let across_y = ray.origin_dy + ray.direction_dy * depth;
-    let along_x = across_x - ray.direction * (dot(normal, across_x) * slope);
-    let along_y = across_y - ray.direction * (dot(normal, across_y) * slope);
-    let change = length(vec2f(dot(plane_normal, along_x), dot(plane_normal, along_y)));
+    let steps = plane_steps(ray, depth, normal, 1e-20);
+    let change = length(vec2f(dot(plane_normal, steps.right), dot(plane_normal, steps.down)));
     return abs(gap * dot(plane_normal, ray.direction)) / max(change, 1e-30);
 }
 

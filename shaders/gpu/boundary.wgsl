@@ -15,6 +15,11 @@ fn no_glass(depth: f32, key: u32) -> GlassHit {
     return GlassHit(depth, key, false, 0u, no_span(), false);
 }
 
+// One end of the crossing of a lens of one convex part; `side`: 0 where the ray enters it, 1 where it leaves.
+fn span_end(part: u32, span: Span, side: u32) -> GlassHit {
+    return GlassHit(select(span.exit, span.entry, side == 0u), 2u * parts[part].lens + side, true, part, span, side == 1u);
+}
+
 fn glass_face(hit: GlassHit) -> u32 {
     return select(hit.span.entry_face, hit.span.exit_face, hit.is_exit);
 }
@@ -30,8 +35,8 @@ fn span_around(part: u32, ray: LensRay, depth: f32) -> Span {
 // Goes from crossing to crossing, at one depth in the order of the parts, until the lens has changed.
 fn compound_glass(rank: u32, key: u32, ray: LensRay, depth: f32) -> GlassHit {
     let merge = MERGE * abs(depth);
-    // Rounding differs between passes, and between a mesh's triangles in space and in the picture; another lens may have drawn the boundary nearer by one merge, and another part
-    // of this one by one more.
+    // Rounding differs between passes, and between a mesh's triangles in space and in the picture; another lens may have
+    // drawn the boundary nearer by one merge, and another part of this one by one more.
     var reached = depth - 0.5 * merge;
     let last = depth + 2.0 * merge;
     var hit = no_glass(depth, key);

@@ -21,15 +21,18 @@ fn cap_normal(item: u32, closing: Closing, ray: PixelRay, pixel: vec2u, depth: f
     if is_moved {
         at = moved_ray(step_point(step - 1u, ray.origin), step_vector(step - 1u, ray.direction));
     }
-    var hit = no_glass(depth, 2u * rank + select(1u, 0u, closing.enters));
+    let side = select(1u, 0u, closing.enters);
+    let part = lenses[rank].first_part;
+    var hit = no_glass(depth, 2u * rank + side);
     if is_compound(rank) {
         hit = compound_glass(rank, hit.key, at, depth);
     } else {
-        hit.part = lenses[rank].first_part;
-        hit.span = part_span(with_all_faces(hit.part), at);
-        hit.is_exit = !closing.enters;
+        hit = span_end(part, part_span(with_all_faces(part), at), side);
     }
-    var normal = surface_normal(hit.part, at, depth, glass_face(hit));
+    var normal = vec3f(0.0);
+    if hit.found {
+        normal = surface_normal(hit.part, at, depth, glass_face(hit));
+    }
     if is_moved {
         let n = normal;
         normal = steps[step - 1u].row_x.xyz * n.x + steps[step - 1u].row_y.xyz * n.y + steps[step - 1u].row_z.xyz * n.z;
@@ -41,22 +44,7 @@ fn cap_normal(item: u32, closing: Closing, ray: PixelRay, pixel: vec2u, depth: f
 fn surface_of_cap(f: Fragment, at: Meeting, ray: PixelRay) -> Surface {
     let maker = f.triangle - FIRST_CAP;
     let normal = at.hit.weights;
-    let m = items[f.item].material;
-    var own: Surface;
-    own.position = at.triangle.a;
-    own.normal = normal;
-    own.view = -normalize(ray.direction);
-    own.factor = materials[m].base_color;
-    own.texel = vec4f(1.0);
-    own.metallic = materials[m].metallic;
-    own.roughness = materials[m].roughness;
-    own.emissive = materials[m].emissive;
-    own.occlusion = 1.0;
-    own.alpha_mode = materials[m].alpha_mode;
-    own.alpha_cutoff = materials[m].alpha_cutoff;
-    own.opacity = 1.0;
-    own.unlit = f32(materials[m].unlit);
-    own.pixel = ray.pixel;
+    let own = untextured(f.item, at.triangle.a, normal, ray);
     let words = cap_words(f.item, maker);
     var cap = Cap(CAP_OWN, items[f.item].node, vec4f(0.0));
     if words != NONE {

@@ -39,28 +39,12 @@ fn cap_words(item: u32, maker: u32) -> u32 {
 
 // Just before a boundary: at such a depth it is not reached, and lenses that meet there are not either.
 fn before_boundary(depth: f32) -> f32 {
-    return depth - 3.0 * MERGE * abs(depth);
-}
-
-// The lenses around the pixel's ray just before a boundary.
-fn set_before(tile: TileRecord, pixel: vec2u, boundary: f32) -> Set {
-    if tile.part_count == 0u {
-        return Set();
-    }
-    let at = layers_at(tile, pixel);
-    var layer = layers[at];
-    loop {
-        layer -= 1u;
-        continuing {
-            break if layer == 0u || starts_boundary(layer_start(at, layer), boundary);
-        }
-    }
-    return layer_set(at, layer);
+    return depth - 2.0 * MERGE * abs(depth);
 }
 
 fn closing(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32) -> Closing {
     var found = Closing(NONE, NONE, false, Set(), Set());
-    let here_before = set_before(tile, pixel, depth);
+    let here_before = set_at(tile, pixel, before_boundary(depth));
     let here_behind = set_at(tile, pixel, depth);
     let before = walk(item, ray, before_boundary(depth), here_before);
     let behind = walk(item, ray, depth, here_behind);

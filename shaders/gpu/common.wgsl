@@ -89,6 +89,8 @@ struct Frame {
 
 const ITEM_TRANSLUCENT: u32 = 1u;
 const ITEM_ALTERNATE: u32 = 2u;
+// It may be cut, and is not closed by itself.
+const ITEM_OPEN: u32 = 4u;
 
 const MASK_SCOPE: u32 = 0u;
 const MASK_OBJECT: u32 = 1u;
@@ -360,6 +362,16 @@ fn part_at(tile: TileRecord, entry: u32, pixel: vec2u) -> AskedPart {
 // Whether a lens has several parts or a mesh: a ray may cross it often.
 fn is_compound(rank: u32) -> bool {
     return COMPOUNDS && (lenses[rank].token_count != 0u || parts[lenses[rank].first_part].form == FORM_MESH);
+}
+
+// The pixel that an invocation works on in a dispatch over the first so many tiles in their order; outside the window:
+// it works on none.
+fn pixel_of(group: vec3u, local: vec3u, tiles_in_order: u32) -> vec2u {
+    let index = group.y * DISPATCH_WIDTH + group.x;
+    if index >= tiles_in_order {
+        return vec2u(NONE);
+    }
+    return tile_corner(tile_in_order(index)) + local.xy;
 }
 
 // The pixel in a tile's top left corner.

@@ -7,33 +7,19 @@ struct CutVarying {
     @location(1) depth: f32,
 }
 
-// Some fields of the record of an `Item`.
-struct CutShown {
-    @location(1) row_x: vec4f,
-    @location(2) row_y: vec4f,
-    @location(3) row_z: vec4f,
-    @location(4) base_vertex: u32,
-}
-
 // Nothing is cut off behind, wherever the far plane is: what lies behind a boundary tells whether it is inside.
 @vertex
-fn cut_vertex(@location(0) local: vec3f, shown: CutShown, @builtin(instance_index) item: u32) -> CutVarying {
-    let at = vec4f(local, 1.0);
-    let p = vec3f(dot(shown.row_x, at), dot(shown.row_y, at), dot(shown.row_z, at));
+fn cut_vertex(@location(0) local: vec3f, shown: Shown, @builtin(instance_index) item: u32) -> CutVarying {
+    let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    var clip = vec4f(dot(p, frame.right.xyz), dot(p, frame.up.xyz), frame.near, depth);
-    if frame.perspective == 0u {
-        clip = vec4f(clip.xy, 0.5, 1.0);
-    }
-    let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
-    return CutVarying(vec4f(moved, clip.zw), item, depth);
+    return CutVarying(clip_position(p, depth, 0.5), item, depth);
 }
 
 @fragment
 fn crossing(in: CutVarying, @builtin(front_facing) is_front: bool) {
     let pixel = vec2u(in.position.xy);
-    // Without lenses there is no boundary.
-    if tile_at(pixel).part_count == 0u {
+    // Without lenses there is no boundary, but for those that a mover brings with what it moves.
+    if tile_at(pixel).part_count == 0u && items[in.item].step_count == 0u {
         return;
     }
     append(crossings_of(pixel), in.depth, in.item, select(0xffffffffu, 1u, is_front));
@@ -45,13 +31,7 @@ fn crossings_of(pixel: vec2u) -> u32 {
 
 @compute @workgroup_size(16, 16)
 fn find_caps(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
-    let index = group.y * DISPATCH_WIDTH + group.x;
-    if index >= frame.active_tiles {
-        return;
-    }
-    let number = tile_in_order(index);
-    let tile = tile_record(number);
-    let pixel = tile_corner(number) + local.xy;
+    let pixel = pixel_of(group, local, tile_columns() * tile_rows());
     if any(pixel >= frame.window_size) {
         return;
     }
@@ -59,6 +39,7 @@ fn find_caps(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) 
     if list == 0u {
         return;
     }
+    let tile = tile_at(pixel);
     let ray = pixel_ray(pixel);
     var boundary = next_boundary(list, tile, pixel, ray, -FAR_AWAY);
     while boundary < FAR_AWAY {
@@ -78,65 +59,67 @@ struct FoundCap {
 // The cap at a boundary: of all bodies that have one there, that of the first.
 fn cap_at(list: u32, tile: TileRecord, pixel: vec2u, ray: PixelRay, boundary: f32) -> FoundCap {
     var found = FoundCap(NONE, NONE);
-    var first = NONE;
-    var slot = list;
-    while slot != 0u {
-        let met = fragments[slot - 1u];
-        let body = items[met.y].body;
-        if body < first && is_first_of_body(list, slot, body) {
-            let member = member_around(list, body, boundary);
-            if member != NONE {
-                let maker = closing(member, ray, tile, pixel, boundary).maker;
-                if maker != NONE {
-                    first = body;
-                    found = FoundCap(member, maker);
-                }
-            }
-        }
-        slot = met.w;
+    var body = next_body(list, 0u);
+    while body != NONE && found.maker == NONE {
+        found = cap_of_body(list, body, tile, pixel, ray, boundary);
+        body = next_body(list, body + 1u);
     }
     return found;
 }
 
-// Whether a crossing is the first with its body in the list.
-fn is_first_of_body(list: u32, crossing: u32, body: u32) -> bool {
+// The first of the bodies in a list from this number on; NONE: there are no more.
+fn next_body(list: u32, least: u32) -> u32 {
+    var next = NONE;
     var slot = list;
-    while slot != crossing {
+    while slot != 0u {
         let met = fragments[slot - 1u];
-        if items[met.y].body == body {
-            return false;
-        }
+        let body = items[met.y].body;
+        next = select(next, min(next, body), body >= least);
         slot = met.w;
     }
-    return true;
+    return next;
 }
 
-// The member of a body that a boundary lies in: the first that encloses it by itself, else the first of those that do so
-// together; NONE where the boundary lies outside. In `lens_words` a body is the number of its members, then for each its
-// item and whether it is closed by itself.
-fn member_around(list: u32, body: u32, boundary: f32) -> u32 {
+// The cap of a body at a boundary: that of its first member that is closed there, of those that enclose the boundary by
+// themselves, and the first of the others where those do so together. In `lens_words` a body is the number of its members,
+// then for each its item.
+fn cap_of_body(list: u32, body: u32, tile: TileRecord, pixel: vec2u, ray: PixelRay, boundary: f32) -> FoundCap {
     if winding(list, body, NONE, boundary) == 0 {
-        return NONE;
+        return FoundCap(NONE, NONE);
     }
+    var open_asked = false;
     for (var i = 0u; i < lens_words[body]; i += 1u) {
-        let at = body + 1u + 2u * i;
-        if lens_words[at + 1u] != 0u && winding(list, body, lens_words[at], boundary) != 0 {
-            return lens_words[at];
+        let item = lens_words[body + 1u + i];
+        if is_open(item) && open_asked {
+            continue;
+        }
+        open_asked = open_asked || is_open(item);
+        if winding(list, body, item, boundary) != 0 {
+            let maker = closing(item, ray, tile, pixel, boundary).maker;
+            if maker != NONE {
+                return FoundCap(item, maker);
+            }
         }
     }
-    return lens_words[body + 1u];
+    return FoundCap(NONE, NONE);
 }
 
-// How often a body, or one item of it, winds around the ray at a boundary, by what lies behind.
+fn is_open(item: u32) -> bool {
+    return (items[item].flags & ITEM_OPEN) != 0u;
+}
+
+// How often a body, or of it one item or all that are open like that, winds around the ray at a boundary, by what lies
+// behind.
 fn winding(list: u32, body: u32, item: u32, boundary: f32) -> i32 {
     var sum = 0;
     var slot = list;
     while slot != 0u {
         let met = fragments[slot - 1u];
-        let counts = items[met.y].body == body && (item == NONE || met.y == item);
-        if counts && !starts_boundary(bitcast<f32>(met.x), boundary) {
-            sum += bitcast<i32>(met.z);
+        var counts = items[met.y].body == body && !starts_boundary(bitcast<f32>(met.x), boundary);
+        if counts && item != NONE {
+            counts = met.y == item || (is_open(item) && is_open(met.y));
         }
+        sum += select(0, bitcast<i32>(met.z), counts);
         slot = met.w;
     }
     return sum;
@@ -149,13 +132,11 @@ fn next_boundary(list: u32, tile: TileRecord, pixel: vec2u, ray: PixelRay, after
     for (var layer = 1u; layer < layer_count(tile, pixel); layer += 1u) {
         next = nearer(layer_start(at, layer), after, next);
     }
-    var slot = list;
-    while MOVERS && slot != 0u {
-        let met = fragments[slot - 1u];
-        if items[met.y].step_count != 0u && is_first_of_body(list, slot, items[met.y].body) {
-            next = next_moved(met.y, ray, after, next);
-        }
-        slot = met.w;
+    var body = next_body(list, 0u);
+    while MOVERS && body != NONE {
+        // All of it is moved alike.
+        next = next_moved(lens_words[body + 1u], ray, after, next);
+        body = next_body(list, body + 1u);
     }
     return next;
 }

@@ -4,11 +4,6 @@ fn is_glass_before(a: GlassHit, b: GlassHit) -> bool {
     return a.depth < b.depth || (a.depth == b.depth && a.key < b.key);
 }
 
-// One end of the crossing of a lens of one convex part; `side`: 0 where the ray enters it, 1 where it leaves.
-fn span_end(part: u32, span: Span, side: u32) -> GlassHit {
-    return GlassHit(select(span.exit, span.entry, side == 0u), 2u * parts[part].lens + side, true, part, span, side == 1u);
-}
-
 // Whether the eye can see it.
 fn is_drawn(hit: GlassHit) -> bool {
     return hit.depth > frame.near && hit.depth < frame.far && is_seen(hit);

@@ -154,16 +154,11 @@ fn put_compound(
 
 @compute @workgroup_size(16, 16)
 fn find_layers(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
-    let index = group.y * DISPATCH_WIDTH + group.x;
-    if index >= frame.active_tiles {
-        return;
-    }
-    let number = tile_in_order(index);
-    let tile = tile_record(number);
-    let pixel = tile_corner(number) + local.xy;
+    let pixel = pixel_of(group, local, frame.active_tiles);
     if any(pixel >= frame.window_size) {
         return;
     }
+    let tile = tile_at(pixel);
     let ray = lens_ray(sample_point(pixel));
     var around = Set();
     var found = Gathering(layers_at(tile, pixel), 0u, 0u);

@@ -13,10 +13,17 @@ fn head_of(pixel: vec2u) -> u32 {
     return pixel.y * frame.window_size.x + pixel.x;
 }
 
+// What the counter stays at: more would make it start again from nothing. Never do so many invocations run at once as there
+// are numbers left.
+const MOST_COUNTED: u32 = 0xe0000000u;
+
 fn append(head: u32, depth: f32, item: u32, triangle: u32) {
-    let slot = atomicAdd(&needed[2u * frame.sample_index], 1u);
+    let counter = 2u * frame.sample_index;
+    let slot = atomicAdd(&needed[counter], 1u);
     if slot < frame.fragment_capacity {
         let next = atomicExchange(&heads[head], slot + 1u);
         fragments[slot] = vec4u(bitcast<u32>(depth), item, triangle, next);
+    } else if slot > MOST_COUNTED {
+        atomicStore(&needed[counter], MOST_COUNTED);
     }
 }

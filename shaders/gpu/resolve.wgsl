@@ -42,7 +42,7 @@ fn composited(pixel: vec2u) -> Composited {
         if GLASS && needs_glass {
             glass = next_glass(tile, pixel, glass);
         }
-        needs_glass = glass.found && glass.depth < pick.depth;
+        needs_glass = glass.found && is_in_front(glass, pick);
         needs_pick = !needs_glass;
         if GLASS && needs_glass {
             let color = glass_color(glass, at, ray);
@@ -69,6 +69,14 @@ fn composited(pixel: vec2u) -> Composited {
         }
     }
     return Composited(front, visible);
+}
+
+// Whether a lens surface is in front of a fragment. A cap lies in one, and covers it whatever rounding makes of that.
+fn is_in_front(glass: GlassHit, pick: Pick) -> bool {
+    if is_cap(pick.triangle) {
+        return starts_boundary(glass.depth, pick.depth);
+    }
+    return glass.depth < pick.depth;
 }
 
 // The same where nothing is seen through anything: one fragment at the most, met once.

@@ -202,22 +202,34 @@ fn surface_of_material(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) 
         let read = read_at_corners(materials[m].slots[slot].texture, uv, t, weights, ray);
         texels[slot] = sample_texture(read.texture, read.uv, read.footprint);
     }
-    var s: Surface;
-    s.position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
-    s.normal = shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz);
-    s.view = view;
-    s.factor = materials[m].base_color;
+    let position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
+    var s = untextured(item, position, shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz), ray);
     if VERTEX_COLORS && items[item].colors != NONE {
         s.factor *= interpolated4(items[item].colors, t.corners, weights);
     }
     s.texel = texels[SLOT_BASE_COLOR];
-    s.metallic = materials[m].metallic * texels[SLOT_METALLIC_ROUGHNESS].z;
-    s.roughness = materials[m].roughness * texels[SLOT_METALLIC_ROUGHNESS].y;
-    s.emissive = materials[m].emissive * texels[SLOT_EMISSIVE].xyz;
-    s.occlusion = 1.0;
+    s.metallic *= texels[SLOT_METALLIC_ROUGHNESS].z;
+    s.roughness *= texels[SLOT_METALLIC_ROUGHNESS].y;
+    s.emissive *= texels[SLOT_EMISSIVE].xyz;
     if TEXTURES {
         s.occlusion += materials[m].occlusion_strength * (texels[SLOT_OCCLUSION].x - 1.0);
     }
+    return s;
+}
+
+// A surface that an item's material has where it has no texture.
+fn untextured(item: u32, position: vec3f, normal: vec3f, ray: PixelRay) -> Surface {
+    let m = items[item].material;
+    var s: Surface;
+    s.position = position;
+    s.normal = normal;
+    s.view = -normalize(ray.direction);
+    s.factor = materials[m].base_color;
+    s.texel = vec4f(1.0);
+    s.metallic = materials[m].metallic;
+    s.roughness = materials[m].roughness;
+    s.emissive = materials[m].emissive;
+    s.occlusion = 1.0;
     s.alpha_mode = ALPHA_OPAQUE;
     if TRANSLUCENT {
         s.alpha_mode = materials[m].alpha_mode;

@@ -8,14 +8,6 @@ struct Varying {
     @location(2) depth: f32,
 }
 
-// Some fields of the record of an `Item`.
-struct Shown {
-    @location(1) row_x: vec4f,
-    @location(2) row_y: vec4f,
-    @location(3) row_z: vec4f,
-    @location(4) base_vertex: u32,
-}
-
 @vertex
 fn vertex(
     @location(0) local: vec3f,
@@ -23,17 +15,11 @@ fn vertex(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) item: u32,
 ) -> Varying {
-    let at = vec4f(local, 1.0);
-    let p = vec3f(dot(shown.row_x, at), dot(shown.row_y, at), dot(shown.row_z, at));
+    let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    var clip = vec4f(dot(p, frame.right.xyz), dot(p, frame.up.xyz), frame.near, depth);
-    if frame.perspective == 0u {
-        clip.z = drawn_depth(depth);
-        clip.w = 1.0;
-    }
-    let moved = clip.xy * frame.clip_scale + frame.clip_shift * clip.w;
+    let position = clip_position(p, depth, drawn_depth(depth));
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
-    return Varying(vec4f(moved, clip.zw), item, vertex - shown.base_vertex, depth);
+    return Varying(position, item, vertex - shown.base_vertex, depth);
 }
 
 // Reverse-Z: infinite far plane in perspective, linear otherwise.
@@ -49,13 +35,13 @@ fn plain(in: Varying) -> @location(0) vec2u {
 
 // `fused`: the fragment finds its region and its stack itself. Small triangles are many: it reads none of their corners.
 @fragment
-fn fused(in: Varying) -> Drawn {
+fn fused(in: Varying) -> Kept {
     let pixel = vec2u(in.position.xy);
     if in.depth < frame.near || in.depth > frame.far {
         discard;
     }
     if !TAKEN_AWAY && !TRANSLUCENT {
-        return drawn(vec2u(in.item + 1u, in.triangle), in.position.z);
+        return kept(vec2u(in.item + 1u, in.triangle), in.position.z);
     }
     let around = set_at(tile_at(pixel), pixel, in.depth);
     return keep(in, pixel, pixel_ray(pixel), in.depth, around);
@@ -63,7 +49,7 @@ fn fused(in: Varying) -> Drawn {
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
 @fragment
-fn peel(in: Varying) -> Drawn {
+fn peel(in: Varying) -> Kept {
     let pixel = vec2u(in.position.xy);
     let tile = tile_at(pixel);
     let count = layer_count(tile, pixel);
@@ -102,7 +88,7 @@ fn next_behind(in: Varying) -> @location(0) vec2u {
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
-fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Drawn {
+fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Kept {
     let verdict = verdict_at(in.item, ray, tile_at(pixel), pixel, depth, inside);
     if !verdict.displayed {
         discard;
@@ -115,5 +101,5 @@ fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Dr
     if verdict.fills {
         z = drawn_depth(depth + items[in.item].spread);
     }
-    return drawn(vec2u(in.item + 1u, in.triangle), z);
+    return kept(vec2u(in.item + 1u, in.triangle), z);
 }

@@ -14,7 +14,7 @@ use super::glass::GlassHits;
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
-use crate::lens::{PixelRect, RayLayers};
+use crate::lens::{PixelRect, RayLayers, starts_boundary};
 use crate::pixel::{Fragment, PixelReport, Survivor, Visible, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
@@ -236,7 +236,7 @@ impl<'a> Tracer<'a> {
         let mut passed = LensSet::EMPTY;
         let mut glass = surfaces.hits.iter().peekable();
         for fragment in fragments(sample, one, listed) {
-            while let Some(hit) = glass.next_if(|hit| hit.depth < f64::from(fragment.depth)) {
+            while let Some(hit) = glass.next_if(|hit| is_in_front(hit.depth, fragment)) {
                 front = over(front, hit.color.truncate(), hit.color.w);
             }
             let Shaded { color, opacity, coverage, normal } = self.shader.shade(fragment, pixel, passed);
@@ -364,6 +364,12 @@ fn seen_range(block: &Block, seen_by: &Option<LensSet>, rays: &[OneRay]) -> Opti
     let sees = |one: &OneRay| one.layers.starts.iter().any(|layer| !(layer.set & *lenses).is_empty());
     let seeing = (0..block.len()).filter(|number| sees(&rays[*number])).map(|number| block.place(number));
     seeing.map(|[x, y]| PixelRect { min: [x, y], max: [x + 1, y + 1] }).reduce(PixelRect::union)
+}
+
+/// Whether a lens surface is in front of a fragment. A cap lies in one, and covers it whatever rounding makes of that.
+fn is_in_front(glass: f64, fragment: &Fragment) -> bool {
+    let depth = f64::from(fragment.depth);
+    if cap_maker(fragment.triangle).is_some() { starts_boundary(glass, depth) } else { glass < depth }
 }
 
 fn over(front: Vec4, back: Vec3, alpha: f32) -> Vec4 {

@@ -10,7 +10,7 @@ use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::{Fragment, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Op, Plan};
-use crate::scene::{NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
+use crate::scene::{MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
 /// The records of a plan in the form that the translated shaders take.
@@ -103,6 +103,29 @@ impl Corners<'_> {
             Some(uv) => self.indices.map(|i| uv[i]),
             None => [Vec2::ZERO; 3],
         }
+    }
+}
+
+/// A surface that a material has where it has no texture.
+fn untextured(material: &MaterialRecord, position: Vec3, normal: Vec3, ray: &wgsl::PixelRay) -> wgsl::Surface {
+    wgsl::Surface {
+        position: v3(position),
+        normal: v3(normal),
+        view: v3(-g3(ray.direction).normalize()),
+        factor: a4(material.base_color),
+        texel: v4(Vec4::ONE),
+        metallic: material.metallic,
+        roughness: material.roughness,
+        emissive: v3(Vec3::from_array(material.emissive)),
+        occlusion: 1.0,
+        alpha_mode: material.alpha_mode,
+        alpha_cutoff: material.alpha_cutoff,
+        opacity: 1.0,
+        unlit: material.unlit as f32,
+        pixel: ray.pixel,
+        toon: v2(Vec2::ZERO),
+        hatch: v4(Vec4::ZERO),
+        hatch_lines: v2(Vec2::ONE),
     }
 }
 
@@ -229,31 +252,22 @@ impl<'a> Shader<'a> {
         }
         let metal_rough = texel(&material.metallic_roughness_texture);
         let occlusion = texel(&material.occlusion_texture).x;
-        let [er, eg, eb] = material.emissive;
+        let position = corners.around[0] * weights.x + corners.around[1] * weights.y + corners.around[2] * weights.z;
+        let normal = self.normal(material, fragment, corners, geometric, view, ray);
         wgsl::Surface {
-            position: v3(corners.around[0] * weights.x + corners.around[1] * weights.y + corners.around[2] * weights.z),
-            normal: v3(self.normal(material, fragment, corners, geometric, view, ray)),
-            view: v3(view),
             factor: v4(factor),
             texel: v4(texel(&material.base_color_texture)),
             metallic: material.metallic * metal_rough.z,
             roughness: material.roughness * metal_rough.y,
-            emissive: v3(Vec3::new(er, eg, eb) * texel(&material.emissive_texture).truncate()),
+            emissive: v3(Vec3::from_array(material.emissive) * texel(&material.emissive_texture).truncate()),
             occlusion: 1.0 + material.occlusion_strength * (occlusion - 1.0),
-            alpha_mode: material.alpha_mode,
-            alpha_cutoff: material.alpha_cutoff,
-            opacity: 1.0,
-            unlit: material.unlit as f32,
-            pixel: ray.pixel,
-            toon: v2(Vec2::ZERO),
-            hatch: v4(Vec4::ZERO),
-            hatch_lines: v2(Vec2::ONE),
+            ..untextured(material, position, normal, ray)
         }
     }
 
     fn normal(
         &self,
-        material: &crate::scene::MaterialRecord,
+        material: &MaterialRecord,
         fragment: &Fragment,
         corners: &Corners,
         geometric: Vec3,

@@ -5,27 +5,30 @@ use super::draws::{Culling, Draw};
 use super::records::NONE;
 use super::upload::SceneData;
 use crate::lens::PixelRect;
-use crate::plan::{Body, Item, LensSet, Plan};
+use crate::plan::{Body, Item, Member, Plan};
 
-/// Where the words of an instance are; [`NONE`]: it is not cut.
+/// What shaders know of an instance that may be cut; [`NONE`]: it is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CutWords {
-    /// The number of members of its body, then for each its instance and whether it is closed by itself.
+    /// Where the words of its body are: the number of members, then for each its instance.
     pub body: u32,
-    /// The number of those who close it, then for each its rank, a `CAP_...` constant, and the colour.
+    /// Where those are of what closes it: the number of those who do, then for each its rank, a `CAP_...` constant, and the
+    /// colour.
     pub caps: u32,
+    /// It is not closed by itself.
+    pub is_open: bool,
 }
 
 /// Appends the words of all bodies and caps; where those of each instance are.
 pub fn push_cuts(plan: &Plan, words: &mut Vec<u32>) -> Vec<CutWords> {
-    let mut cuts = vec![CutWords { body: NONE, caps: NONE }; plan.instances.len()];
+    let mut cuts = vec![CutWords { body: NONE, caps: NONE, is_open: false }; plan.instances.len()];
     for Body { members } in &plan.bodies {
         let body = words.len() as u32;
         words.push(members.len() as u32);
-        words.extend(members.iter().flat_map(|member| [member.instance as u32, u32::from(member.closed)]));
-        for member in members {
-            let item = &plan.items[plan.instances[member.instance].item];
-            cuts[member.instance] = CutWords { body, caps: push_caps(item, words) };
+        words.extend(members.iter().map(|member| member.instance as u32));
+        for Member { instance, closed } in members {
+            let item = &plan.items[plan.instances[*instance].item];
+            cuts[*instance] = CutWords { body, caps: push_caps(item, words), is_open: !closed };
         }
     }
     cuts
@@ -48,7 +51,7 @@ fn push_caps(item: &Item, words: &mut Vec<u32>) -> u32 {
 /// Draws of all that may be cut, whole: lenses tell where it matters.
 pub fn draws(plan: &Plan, window: &Window, uploaded: &SceneData) -> Vec<Draw> {
     let members = plan.bodies.iter().flat_map(|body| body.members.iter().map(move |member| (body, member)));
-    let draw = |(body, member): (&Body, &crate::plan::Member)| {
+    let draw = |(body, member): (&Body, &Member)| {
         let rect = window.local(&cut_rect(plan, body));
         let item = &plan.items[plan.instances[member.instance].item];
         let (range, _) = uploaded.primitive(item);
@@ -61,15 +64,9 @@ pub fn draws(plan: &Plan, window: &Window, uploaded: &SceneData) -> Vec<Draw> {
 }
 
 /// The pixels outside which a body is not cut.
-pub fn cut_rect(plan: &Plan, Body { members }: &Body) -> PixelRect {
-    let cutters = |member: &crate::plan::Member| {
-        let instance = &plan.instances[member.instance];
-        // What is moved is cut where it is seen: in the lens that moves it.
-        instance.steps.first().map_or(plan.items[instance.item].capped_by(), |step| LensSet::only(step.rank))
-    };
-    let cutters = members.iter().fold(LensSet::EMPTY, |all, member| all | cutters(member));
+pub fn cut_rect(plan: &Plan, body: &Body) -> PixelRect {
     let whole = PixelRect { min: [0, 0], max: plan.view.size };
     // Rules may hold anywhere, and so do lenses that take whole objects.
     let rect = |rank: usize| if plan.by_pixel.contains(rank) { plan.lenses[rank].rect } else { whole };
-    cutters.iter().map(rect).reduce(PixelRect::union).unwrap_or(PixelRect::EMPTY)
+    plan.cutters(body).iter().map(rect).reduce(PixelRect::union).unwrap_or(PixelRect::EMPTY)
 }

@@ -183,7 +183,7 @@ impl Headless {
             if job.room.holds(needed) {
                 return Ok(());
             }
-            check_size(renderer.largest_buffer(), "the translucent fragments", needed.fragments * FRAGMENT_BYTES)?;
+            check_size(renderer.largest_buffer(), "the listed fragments", needed.fragments * FRAGMENT_BYTES)?;
             // A little more, so that the next frame of an animation fits, too.
             let fragments = (needed.fragments + needed.fragments / 8).min(renderer.largest_buffer() / FRAGMENT_BYTES);
             renderer.reserve(Room { fragments, ..needed });

@@ -4,7 +4,7 @@ use glam::DAffine3;
 
 use super::cut_data::CutWords;
 use super::draws::shown_from_local;
-use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
+use super::records::{ITEM_ALTERNATE, ITEM_OPEN, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
 use super::upload::SceneData;
 use crate::plan::{Instance, Plan, Step};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene, scene_factor};
@@ -30,8 +30,9 @@ impl ItemData {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
-            let CutWords { body, caps } = *cut;
-            let record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
+            let CutWords { body, caps, is_open } = *cut;
+            let mut record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
+            record.flags |= if is_open { ITEM_OPEN } else { 0 };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
             let masks = [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];

@@ -100,13 +100,7 @@ impl Job {
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, &self.groups.layers, &[]);
-        self.dispatch_tiles(&mut pass);
-    }
-
-    /// One workgroup for each tile that lenses touch.
-    fn dispatch_tiles(&self, pass: &mut wgpu::ComputePass) {
-        let width = self.tiles.active.min(DISPATCH_WIDTH);
-        pass.dispatch_workgroups(width, self.tiles.active.div_ceil(DISPATCH_WIDTH), 1);
+        dispatch_tiles(&mut pass, self.tiles.active);
     }
 
     /// Draws the scene: once, or once for each layer, farthest first.
@@ -128,7 +122,7 @@ impl Job {
             }
         }
         drop(pass);
-        if let Some(caps) = self.caps.as_ref().filter(|_| self.tiles.active > 0) {
+        if let Some(caps) = self.caps.as_ref().filter(|caps| !caps.draws.is_empty()) {
             self.encode_caps(encoder, sample, caps);
         }
     }
@@ -155,7 +149,8 @@ impl Job {
         pass.set_bind_group(0, &self.groups.scene, &[]);
         pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
         pass.set_bind_group(2, &self.groups.visibility, &[]);
-        self.dispatch_tiles(&mut pass);
+        // What is moved may be cut where no lens is.
+        dispatch_tiles(&mut pass, self.tiles.count);
     }
 
     /// Composites each pixel's fragments into a target as large as the window, where the picture stands after the last
@@ -207,6 +202,11 @@ impl Job {
         let [width, height] = self.window.size;
         pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
     }
+}
+
+/// One workgroup for each of the first tiles in their order: those that lenses touch come first.
+fn dispatch_tiles(pass: &mut wgpu::ComputePass, tiles: u32) {
+    pass.dispatch_workgroups(tiles.min(DISPATCH_WIDTH), tiles.div_ceil(DISPATCH_WIDTH), 1);
 }
 
 /// A pass that draws into lists alone; it has the size of a depth target, and neither reads nor changes one.

@@ -10,6 +10,7 @@ pub const NONE: u32 = u32::MAX;
 
 pub const ITEM_TRANSLUCENT: u32 = 1;
 pub const ITEM_ALTERNATE: u32 = 2;
+pub const ITEM_OPEN: u32 = 4;
 
 pub const FORM_EMPTY: u32 = 0;
 pub const FORM_SPHERE: u32 = 1;

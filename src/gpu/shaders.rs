@@ -42,8 +42,8 @@ impl Module {
     fn parts(self) -> &'static [&'static [&'static str]] {
         match self {
             Module::Layers => &[&[SET], VOLUMES, &[LAYERS]],
-            Module::Visibility => &[&[LISTS, VISIBILITY], VOLUMES, CLASSIFYING],
-            Module::Caps => &[&[LISTS, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
+            Module::Visibility => &[&[LISTS, DRAWN, VISIBILITY], VOLUMES, CLASSIFYING],
+            Module::Caps => &[&[LISTS, DRAWN, FIND_CAPS], VOLUMES, CLASSIFYING, &[CLOSING]],
             Module::Resolve => &[VOLUMES, CLASSIFYING, SHADING, &[GLASS, CONTACT, FINISH, SCREEN_SAMPLE, RESOLVE]],
             Module::Aov => &[VOLUMES, CLASSIFYING, SHADING, &[AOV]],
             Module::Explain => &[VOLUMES, CLASSIFYING, SHADING, &[EXPLAIN]],
@@ -75,12 +75,13 @@ const STACK: &str = include_str!("../../shaders/gpu/stack.wgsl");
 const PLANE: &str = include_str!("../../shaders/gpu/plane.wgsl");
 const LAYERS: &str = include_str!("../../shaders/gpu/layers.wgsl");
 const LISTS: &str = include_str!("../../shaders/gpu/lists.wgsl");
+const DRAWN: &str = include_str!("../../shaders/gpu/drawn.wgsl");
 const FIND_CAPS: &str = include_str!("../../shaders/gpu/find_caps.wgsl");
 const CLOSING: &str = include_str!("../../shaders/gpu/closing.wgsl");
 const BOUNDARY: &str = include_str!("../../shaders/gpu/boundary.wgsl");
 const CAPS: &str = include_str!("../../shaders/gpu/caps.wgsl");
-const DRAWN: &str = include_str!("../../shaders/gpu/drawn.wgsl");
-const DRAWN_VERSIONS: &str = include_str!("../../shaders/gpu/drawn_versions.wgsl");
+const KEPT: &str = include_str!("../../shaders/gpu/kept.wgsl");
+const KEPT_VERSIONS: &str = include_str!("../../shaders/gpu/kept_versions.wgsl");
 const VISIBILITY: &str = include_str!("../../shaders/gpu/visibility.wgsl");
 const TEXTURE: &str = include_str!("../../shaders/gpu/texture.wgsl");
 const SHADE: &str = include_str!("../../shaders/gpu/shade.wgsl");
@@ -104,7 +105,7 @@ pub fn source(module: Module, needs: &Needs, custom: &str) -> String {
         text += custom;
     }
     if module == Module::Visibility {
-        text += if needs.versions { DRAWN_VERSIONS } else { DRAWN };
+        text += if needs.versions { KEPT_VERSIONS } else { KEPT };
     }
     for part in module.parts().iter().copied().flatten() {
         text += part;

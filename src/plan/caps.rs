@@ -23,7 +23,7 @@ pub struct Body {
 pub struct Member {
     /// Into [`Plan::instances`].
     pub instance: usize,
-    /// It is closed by itself, so that what it encloses is its own.
+    /// It is closed by itself, so that what it encloses is its own. All others of a body enclose something together.
     pub closed: bool,
 }
 
@@ -43,35 +43,43 @@ const MOST_NAMED: usize = 8;
 
 /// Leaves items only the caps that can be, and says which cannot.
 pub(super) fn check(spec: &Spec, scene: &Scene, lenses: &[Lens], items: &mut [Item]) -> Vec<String> {
-    let mut open: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+    // By the lens or rule, then by the model and the node.
+    let mut open: BTreeMap<usize, BTreeMap<(usize, usize), String>> = BTreeMap::new();
     for item in items.iter_mut().filter(|item| !item.caps.is_empty()) {
-        item.caps.retain(|(rank, _)| lenses.get(*rank).is_none_or(|lens| lens.by == By::Pixel));
+        let scope = item.scope;
+        let is_there = |rank: usize, lens: &Lens| lens.by == By::Pixel && scope.contains(rank);
+        item.caps.retain(|(rank, _)| lenses.get(*rank).is_none_or(|lens| is_there(*rank, lens)));
         let model = &scene.models[item.model];
         let closure = model.closure(item.mesh);
         if closure.is_closed() {
             continue;
         }
         for (rank, _) in std::mem::take(&mut item.caps) {
-            let names = open.entry(rank).or_default();
-            let name = open_node(&model.node_label(item.node), &closure);
-            if !names.contains(&name) {
-                names.push(name);
-            }
+            let name = || open_node(&model.node_label(item.node), &closure);
+            open.entry(rank).or_default().entry((item.model, item.node)).or_insert_with(name);
         }
+    }
+    for node in items.chunk_by_mut(is_same_node) {
+        let is_cut = node.iter().any(|item| !item.caps.is_empty());
+        node.iter_mut().for_each(|item| item.is_cut = is_cut);
     }
     let by_object = (0..lenses.len()).filter(|rank| lenses[*rank].by == By::Object);
     let idle = by_object.filter_map(|rank| {
         let (place, name) = cap_of(spec, lenses, rank)?;
         Some(format!("{place}: `cap` of {name} closes nothing: with by = \"object\" it cuts no solid"))
     });
-    let open = open.into_iter().filter_map(|(rank, names)| {
+    let open = open.into_iter().filter_map(|(rank, nodes)| {
         let (place, name) = cap_of(spec, lenses, rank)?;
-        let more = names.len().saturating_sub(MOST_NAMED);
+        let more = nodes.len().saturating_sub(MOST_NAMED);
         let more = if more > 0 { format!(", and {more} more nodes") } else { String::new() };
-        let names = names[..names.len().min(MOST_NAMED)].join(", ");
-        Some(format!("{place}: `cap` of {name} leaves open what is not closed: {names}{more}"))
+        let names: Vec<String> = nodes.into_values().take(MOST_NAMED).collect();
+        Some(format!("{place}: `cap` of {name} leaves open what is not closed: {}{more}", names.join(", ")))
     });
     idle.chain(open).collect()
+}
+
+fn is_same_node(a: &Item, b: &Item) -> bool {
+    (a.content, a.node) == (b.content, b.node)
 }
 
 fn open_node(name: &str, Closure { edges, open_edges, .. }: &Closure) -> String {
@@ -89,17 +97,15 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
     Some((format!("{}:{line}", spec.source.name), name))
 }
 
-/// The nodes that may be cut, in each of the ways in which all of them is shown; the smallest first: of those that lie in
-/// each other the inner ones.
+/// The nodes that may be cut, in each of the ways in which all of a node is shown; the smallest first: of those that lie
+/// in each other the inner ones.
 pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
+    let primitives = |node: &[Item]| node.iter().filter(|item| !item.is_simplified()).count();
+    let nodes = items.chunk_by(is_same_node).flat_map(|node| std::iter::repeat_n(primitives(node), node.len()));
+    let primitives_of_node: Vec<usize> = nodes.collect();
     // By the content, the node, the version and the lenses that move it.
     let mut ways: BTreeMap<(usize, usize, u32, Vec<usize>), Body> = BTreeMap::new();
-    let is_node_of = |a: &Item, b: &Item| (a.content, a.node) == (b.content, b.node);
-    let is_cut: Vec<bool> = items
-        .chunk_by(is_node_of)
-        .flat_map(|node| std::iter::repeat_n(node.iter().any(|item| !item.caps.is_empty()), node.len()))
-        .collect();
-    for (number, instance) in instances.iter().enumerate().filter(|(_, instance)| is_cut[instance.item]) {
+    for (number, instance) in instances.iter().enumerate().filter(|(_, instance)| items[instance.item].is_cut) {
         let item = &items[instance.item];
         let way = instance.steps.iter().map(|step| step.rank).collect();
         let closed = scene.models[item.model].closure(item.mesh).primitives[item.primitive];
@@ -107,18 +113,17 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
             ways.entry((item.content, item.node, item.ratio.to_bits(), way)).or_insert(Body { members: Vec::new() });
         body.members.push(Member { instance: number, closed });
     }
+    let first = |body: &Body| &instances[body.members[0].instance];
     // What a lens moves or simplifies only some primitives of is not closed there.
-    let is_whole = |body: &Body| {
-        let first = &items[instances[body.members[0].instance].item];
-        items.iter().filter(|item| is_node_of(first, item) && !item.is_simplified()).count() == body.members.len()
-    };
+    let is_whole = |body: &Body| primitives_of_node[first(body).item] == body.members.len();
     let size = |body: &Body| {
-        let first = &items[instances[body.members[0].instance].item];
-        scene.models[first.model].node_bounds(first.node).size().element_product()
+        let item = &items[first(body).item];
+        let in_place = scene.models[item.model].node_bounds(item.node).size().element_product();
+        in_place * first(body).shown_from_world.matrix3.determinant().abs()
     };
-    let mut bodies: Vec<Body> = ways.into_values().filter(is_whole).collect();
-    bodies.sort_by(|a, b| size(a).total_cmp(&size(b)));
-    bodies
+    let mut bodies: Vec<(f64, Body)> = ways.into_values().filter(is_whole).map(|body| (size(&body), body)).collect();
+    bodies.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    bodies.into_iter().map(|(_, body)| body).collect()
 }
 
 impl Item {
@@ -134,6 +139,16 @@ impl Item {
 }
 
 impl Plan {
+    /// The lenses and rules outside which nothing of a body is cut.
+    pub fn cutters(&self, body: &Body) -> LensSet {
+        let own = |member: &Member| {
+            let instance = &self.instances[member.instance];
+            // What is moved is cut where it is seen: in the lens that moves it.
+            instance.steps.first().map_or(self.items[instance.item].capped_by(), |step| LensSet::only(step.rank))
+        };
+        body.members.iter().fold(LensSet::EMPTY, |all, member| all | own(member))
+    }
+
     /// What closes an instance at a boundary, if anything does.
     ///
     /// `around(n, behind)`: as for [`Plan::walk`], just before the boundary and just behind it.

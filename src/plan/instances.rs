@@ -124,9 +124,9 @@ pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<
     Ok(instances)
 }
 
-/// The bounds of an item as movers take it: what may be cut is shown whole or not at all.
+/// The bounds of an item as movers take it.
 fn moved_bounds(item: &Item, scene: &Scene) -> Aabb {
-    if item.caps.is_empty() { item.bounds } else { scene.models[item.model].node_bounds(item.node) }
+    if item.is_cut { scene.models[item.model].node_bounds(item.node) } else { item.bounds }
 }
 
 fn too_many(lenses: &[Lens], movers: LensSet, ways: bool) -> InputError {

@@ -47,7 +47,7 @@ pub struct Item {
     pub shown_by: LensSet,
     /// Lenses that take it away where they act: they erase it or show something else.
     pub removed_by: LensSet,
-    /// Lenses that move it where they act.
+    /// Lenses that move it where they act; what they take away they do not move.
     pub movers: LensSet,
     /// Lenses whose `lod` says which version is seen; the highest that acts decides.
     pub simplified_by: LensSet,
@@ -55,6 +55,8 @@ pub struct Item {
     pub spread: f64,
     /// What the lenses and rules that erase it close it with, by rising rank; none where its node is not closed.
     pub caps: Vec<(usize, Cap)>,
+    /// Some primitive of its node has caps: the node is shown whole or not at all.
+    pub is_cut: bool,
 }
 
 impl Item {
@@ -80,7 +82,7 @@ impl Item {
     pub(super) fn moved_by(&self, lenses: &[Lens]) -> LensSet {
         let applies = |rank: &usize| {
             let there = lenses[*rank].by == By::Pixel || self.object.contains(*rank);
-            there && (self.shown_by.contains(*rank) || (self.scope.contains(*rank) && !self.removed_by.contains(*rank)))
+            there && (self.shown_by.contains(*rank) || self.scope.contains(*rank))
         };
         let lowest = if self.is_alternate() { self.shown_by.iter().next().unwrap_or(usize::MAX) } else { 0 };
         self.movers.iter().filter(|rank| *rank >= lowest).filter(applies).collect()
@@ -139,6 +141,7 @@ pub(super) fn collect(
                     simplified_by: LensSet::EMPTY,
                     spread: 0.0,
                     caps: Vec::new(),
+                    is_cut: false,
                 };
                 let subject = item.subject(scene);
                 for (rank, lens) in lenses.iter().enumerate() {
@@ -212,12 +215,10 @@ pub(super) fn largest_scale(map: &DAffine3) -> f64 {
 
 /// Sets what the filters of one lens or rule mean to one item.
 fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, contents: &[Content], scene: &Scene) {
-    if instances::moves(filters, subject) {
-        item.movers.insert(rank);
-    }
     if lod(filters.iter()).is_some() {
         item.simplified_by.insert(rank);
     }
+    let moves = instances::moves(filters, subject);
     let last_show = filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
     // The cap of the first filter that erases it.
     let erased = |filters: &[Filter]| {
@@ -233,6 +234,8 @@ fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, c
         if let Some(cap) = erased(filters) {
             item.removed_by.insert(rank);
             item.caps.extend(cap.map(|cap| (rank, cap)));
+        } else if moves {
+            item.movers.insert(rank);
         }
         return;
     };
@@ -240,7 +243,12 @@ fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, c
     let brings_in = contents.iter().position(|c| *c == content(what, scene)) == Some(item.content);
     if brings_in {
         match erased(&filters[show + 1..]) {
-            None => item.shown_by.insert(rank),
+            None => {
+                item.shown_by.insert(rank);
+                if moves {
+                    item.movers.insert(rank);
+                }
+            }
             Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
         }
     }

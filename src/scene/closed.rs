@@ -71,10 +71,16 @@ impl Clone for ClosureCache {
 impl Model {
     /// Where a mesh ends, if anywhere; looked for once.
     pub fn closure(&self, mesh: usize) -> Arc<Closure> {
-        let mut known = self.closure_cache.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let cache = || self.closure_cache.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = cache().get(mesh).and_then(Option::clone) {
+            return known;
+        }
+        // Without the lock: the threads that sort edges may take up other work meanwhile, which asks as well.
+        let found = Arc::new(Closure::new(&self.meshes[mesh]));
+        let mut known = cache();
         let length = self.meshes.len().max(known.len());
         known.resize(length, None);
-        known[mesh].get_or_insert_with(|| Arc::new(Closure::new(&self.meshes[mesh]))).clone()
+        known[mesh].get_or_insert(found).clone()
     }
 }
 
@@ -119,6 +125,14 @@ mod tests {
         // The other one turned by half around the x axis, which both have for an edge.
         mesh.primitives[1].positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, -p.y, -p.z));
         assert_eq!(Closure::new(&mesh), Closure { edges: 11, open_edges: 0, primitives: vec![true, true] });
+    }
+
+    #[test]
+    fn many_threads_may_ask_at_once() {
+        let whole = tetrahedron(&[&[0, 1, 2, 3][..]; 20_000]);
+        let model = Model { meshes: vec![whole], ..Model::default() };
+        let found: Vec<Arc<Closure>> = (0..64).into_par_iter().map(|_| model.closure(0)).collect();
+        assert!(found.iter().all(|closure| closure.is_closed() && Arc::ptr_eq(closure, &found[0])));
     }
 
     #[test]

@@ -143,7 +143,7 @@ mod tests {
             let (turn, tilt) = (std::f32::consts::TAU * turn, std::f32::consts::PI * tilt);
             let radius = 1.0 + 0.02 * (5.0 * turn).sin() * (4.0 * tilt).sin();
             // The poles are one place each.
-            let round = if y % ROWS == 0 { 0.0 } else { tilt.sin() };
+            let round = if y.is_multiple_of(ROWS) { 0.0 } else { tilt.sin() };
             radius * Vec3::new(round * turn.sin(), tilt.cos(), round * turn.cos())
         };
         let quads = (0..ROWS).flat_map(|y| (0..COLUMNS).map(move |x| (x, y)));

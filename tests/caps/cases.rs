@@ -5,12 +5,12 @@ use std::f64::consts::PI;
 use glam::Vec3;
 use lenspeel::pixel::cap_maker;
 
-use crate::solids::{Part, ball, cuboid, planned, turned, with};
+use crate::solids::{Part, ball, cuboid, halves, planned, second, turned, with};
 use crate::{Draw, cap_pixels, has_area, maps};
 
 pub type Check = fn(Draw) -> Result<(), String>;
 
-pub const ALL: [(&str, Check); 10] = [
+pub const ALL: [(&str, Check); 16] = [
     ("a-ball-cut-by-a-plane", plane),
     ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
     ("a-ball-cut-by-a-sphere", sphere),
@@ -21,6 +21,12 @@ pub const ALL: [(&str, Check); 10] = [
     ("a-solid-beyond-near-and-far", beyond_near_and_far),
     ("a-cut-magnified", magnified),
     ("a-cut-over-a-magnifier", over_magnifier),
+    ("a-lens-that-cuts-and-magnifies", cut_and_magnified),
+    ("a-cut-moved-where-no-lens-is", moved_away),
+    ("one-surface-of-a-node-moved", one_surface_moved),
+    ("the-inner-surface-of-a-node", inner_surface),
+    ("an-inner-surface-that-is-not-cut", inner_surface_not_cut),
+    ("surfaces-that-are-closed-together", closed_together),
 ];
 
 /// Pixels of a picture's side.
@@ -168,4 +174,60 @@ fn over_magnifier(draw: Draw) -> Result<(), String> {
         return Err(format!("the cut faces {:?}", aovs.normals[middle]));
     }
     has_area(aovs, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// What a lens erases it does not move: the ball is cut where it stands.
+fn cut_and_magnified(draw: Draw) -> Result<(), String> {
+    let frame =
+        draw(&planned(one_ball(), SIDE, ABOVE, &above(0.3, &format!("{CAP}, {{ magnify = {{ factor = 2 }} }}"))))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// A lens that takes whole objects shows the cut where neither it nor the eraser is.
+fn moved_away(draw: Draw) -> Result<(), String> {
+    let small = vec![("ball", vec![ball(0.3, 192)])];
+    let camera = "eye = [4.5, 0, 5]\ntarget = [4.5, 0, 0]\northographic_height = 3";
+    let cut = lens("cut", "box = { min = [-0.4, -0.4, 0.1], max = [0.4, 0.4, 0.4] }", CAP);
+    let away = lens("away", "sphere = { center = [0, 0, 0], radius = 0.5 }", "{ displace = { offset = [4.5, 0, 0] } }");
+    let frame = draw(&planned(small, SIDE, camera, &(cut + &away + "by = \"object\"\n")))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (0.09 - 0.01)))
+}
+
+const CAP_SECOND: &str = "{ erase = { materials = [\"second\"], cap = \"tomato\" } }";
+
+/// A node is moved as a whole, although one of its surfaces is not cut and lies outside the lens that moves it.
+fn one_surface_moved(draw: Draw) -> Result<(), String> {
+    let far = cuboid(Vec3::new(0.0, 40.0, 0.0), Vec3::splat(0.1));
+    let parts = vec![("ball", vec![far, second(ball(0.5, 192))])];
+    let loupe = lens("loupe", "sphere = { center = [0, 0, 0], radius = 4 }", "{ magnify = { factor = 2 } }");
+    let frame = draw(&planned(parts, SIDE, ABOVE, &(above(0.15, CAP_SECOND) + &loupe)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// A surface that lies in another one of its node has a cap though that has none.
+fn inner_surface(draw: Draw) -> Result<(), String> {
+    let parts = vec![("balls", vec![ball(1.0, 192), second(ball(0.6, 192))])];
+    // What is not erased is not seen, or it would hide the cap.
+    let frame = draw(&planned(parts, SIDE, ABOVE, &above(0.0, &clear(CAP_SECOND))))?;
+    has_area(maps(&frame)?, 0, pixels(PI * 0.36))
+}
+
+fn clear(filter: &str) -> String {
+    format!("{filter}, {{ opacity = {{ value = 0 }} }}")
+}
+
+/// The outer surface's cap goes on through an inner one that stays.
+fn inner_surface_not_cut(draw: Draw) -> Result<(), String> {
+    let parts = vec![("balls", vec![ball(0.6, 192), second(ball(1.0, 192))])];
+    let frame = draw(&planned(parts, SIDE, ABOVE, &above(0.0, &clear(CAP_SECOND))))?;
+    has_area(maps(&frame)?, 0, pixels(PI))
+}
+
+/// Of surfaces that are open each by itself, the first is cut, wherever closed ones of the same node are.
+fn closed_together(draw: Draw) -> Result<(), String> {
+    let [top, rest] = halves(second(ball(1.0, 192)), 192 * 48);
+    let beside = cuboid(Vec3::new(0.0, 40.0, 0.0), Vec3::splat(0.1));
+    let parts = vec![("parts", vec![beside, top, rest])];
+    let frame = draw(&planned(parts, SIDE, ABOVE, &above(0.3, CAP_SECOND)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
 }

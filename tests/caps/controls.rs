@@ -14,6 +14,7 @@ pub fn trials() -> Vec<Trial> {
     };
     vec![
         trial("an-open-mesh-is-named-and-left-open", open_mesh),
+        trial("an-open-mesh-that-the-lens-is-not-there-for-is-not-named", open_mesh_out_of_scope),
         trial("an-eraser-without-a-cap-closes-nothing", without_cap),
         trial("what-takes-whole-objects-closes-nothing", by_object),
         trial("a-hole-turned-the-wrong-way-changes-the-area", turned_hole),
@@ -36,6 +37,18 @@ fn open_mesh() -> Result<(), String> {
     match (&opened.plan.warnings[..], caps(&opened)?) {
         ([only], 0) if only.starts_with("spec.toml:13: ") && only.contains(warning) => Ok(()),
         (warnings, count) => Err(format!("{count} pixels, and {warnings:?}")),
+    }
+}
+
+fn open_mesh_out_of_scope() -> Result<(), String> {
+    let mut torn = ball(0.2, 64);
+    torn.triangles.remove(64 * 31 + 32);
+    let parts = vec![("ball", vec![ball(1.0, 64)]), ("torn", vec![torn])];
+    let opened = planned(parts, SIDE, ABOVE, &(above(0.3, CAP) + "except = { nodes = [\"torn\"] }\n"));
+    if opened.plan.warnings.is_empty() && caps(&opened)? > 0 {
+        Ok(())
+    } else {
+        Err(format!("{:?}", opened.plan.warnings))
     }
 }
 

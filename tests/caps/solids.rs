@@ -7,6 +7,9 @@ use lenspeel::spec::Spec;
 
 use crate::open::Opened;
 
+/// Names of the materials that there are; a primitive has the first if nothing else is said.
+const MATERIALS: [&str; 2] = ["first", "second"];
+
 /// A node with the primitives of its mesh.
 pub type Part = (&'static str, Vec<Primitive>);
 
@@ -17,7 +20,7 @@ pub fn planned(parts: Vec<Part>, side: u32, camera: &str, lenses: &str) -> Opene
     );
     let spec = Spec::parse(&text, "spec.toml", "".as_ref()).expect("the test's spec is right");
     let mut model = Model { name: "made in code".into(), ..Model::default() };
-    model.materials = vec![Material::default()];
+    model.materials = MATERIALS.map(|name| Material { name: name.into(), ..Material::default() }).to_vec();
     for (name, primitives) in parts {
         model.nodes.push(Node {
             name: name.into(),
@@ -74,6 +77,17 @@ pub fn cuboid(center: Vec3, half: Vec3) -> Primitive {
 pub fn turned(mut primitive: Primitive) -> Primitive {
     primitive.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
     primitive
+}
+
+/// With the second material.
+pub fn second(primitive: Primitive) -> Primitive {
+    Primitive { material: 1, ..primitive }
+}
+
+/// The triangles of a surface before one of them, and those from it on.
+pub fn halves(whole: Primitive, at: usize) -> [Primitive; 2] {
+    let (first, rest) = whole.triangles.split_at(at);
+    [first, rest].map(|triangles| Primitive { triangles: triangles.to_vec(), ..whole.clone() })
 }
 
 /// Two surfaces as one primitive.

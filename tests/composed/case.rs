@@ -205,7 +205,7 @@ pub enum Filter {
         color: Option<Color>,
         filled: bool,
     },
-    Erase(Patterns),
+    Erase(Patterns, Option<Cap>),
     /// Into [`Case::models`], from 1.
     ShowAlternate(usize),
     ShowNodes(Vec<String>),
@@ -218,6 +218,14 @@ pub enum Filter {
         nodes: Vec<String>,
         by: Displacement,
     },
+}
+
+/// What closes the solids that are cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cap {
+    Own,
+    Color(Color),
+    Hatch(Color),
 }
 
 #[derive(Debug, Clone, Copy)]

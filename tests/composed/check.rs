@@ -29,6 +29,8 @@ pub struct Tally {
     pub in_lenses: usize,
     pub moved: usize,
     pub ruled: usize,
+    /// With a cap visible.
+    pub capped: usize,
 }
 
 impl std::ops::AddAssign for Tally {
@@ -41,6 +43,7 @@ impl std::ops::AddAssign for Tally {
         self.in_lenses += other.in_lenses;
         self.moved += other.moved;
         self.ruled += other.ruled;
+        self.capped += other.capped;
     }
 }
 
@@ -69,6 +72,7 @@ impl Answers {
             in_lenses: visible(&|v| v.set.len() > 1),
             moved: visible(&|v| v.is_moved),
             ruled: visible(&|v| matches!(v.stack, Stack::Rule(_))),
+            capped: visible(&|v| v.cap_by.is_some()),
         }
     }
 
@@ -101,6 +105,9 @@ fn differs(expected: &Expected, got: &Pixel) -> Option<&'static str> {
     match (&expected.visible, &got.visible) {
         (None, None) => {}
         (Some(want), Some(there)) => {
+            if want.cap_by != there.cap_by {
+                return Some("what closes it");
+            }
             if want.set != there.set {
                 return Some("the region");
             }

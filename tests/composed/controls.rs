@@ -18,12 +18,13 @@ type Change = fn(&mut Case, &Answers) -> bool;
 pub type Control = (&'static str, Change, f64);
 
 /// Not every change shows: a declared edge may outweigh a priority, an upper lens hide what a lower one does.
-pub const ALL: [Control; 7] = [
+pub const ALL: [Control; 8] = [
     ("a-lens-above-another", above_another, 0.6),
     ("a-shifted-lens", shifted, 0.8),
     ("a-lens-that-is-missing", missing, 1.0),
     ("a-lens-that-overrides", overrides, 0.5),
     ("a-lens-for-other-nodes", for_other_nodes, 0.9),
+    ("cuts-that-stay-open", without_caps, 1.0),
     ("movers-that-move-more", moves_more, 0.8),
     ("rules-that-are-missing", without_rule, 1.0),
 ];
@@ -69,6 +70,16 @@ fn moves_more(case: &mut Case, answers: &Answers) -> bool {
         }
     }
     answers.tally().moved > 0
+}
+
+fn without_caps(case: &mut Case, answers: &Answers) -> bool {
+    let lenses = case.lenses.iter_mut().map(|lens| &mut lens.filters);
+    for filter in lenses.chain(case.rules.iter_mut().map(|rule| &mut rule.filters)).flatten() {
+        if let Filter::Erase(_, cap) = filter {
+            *cap = None;
+        }
+    }
+    answers.tally().capped > 0
 }
 
 fn without_rule(case: &mut Case, answers: &Answers) -> bool {

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use lenspeel::cpu;
 use lenspeel::frame::Frame;
+use lenspeel::pixel::cap_maker;
 use lenspeel::plan::LensSet;
 
 use crate::open::{Opened, open};
-use crate::oracle::Stack;
+use crate::oracle::{Actor, Stack};
 
 /// Who makes the picture.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +49,8 @@ pub struct Pixel {
 pub struct Visible {
     pub set: Vec<usize>,
     pub stack: Stack,
+    /// Who closes a solid there.
+    pub cap_by: Option<Actor>,
     pub node: usize,
     pub depth: f64,
 }
@@ -71,6 +74,7 @@ impl Picture {
         let visible = aovs.table.get(aovs.regions[at] as usize).map(|region| Visible {
             set: self.files(region.set),
             stack: self.stack(region.stack),
+            cap_by: cap_maker(aovs.triangles[at]).map(|maker| self.actor(maker)),
             node: (aovs.nodes[at] as usize).wrapping_sub(1),
             depth: f64::from(aovs.depth[at]),
         });
@@ -79,11 +83,15 @@ impl Picture {
 
     /// A rule stands alone in its stack, after all lenses.
     fn stack(&self, stack: LensSet) -> Stack {
-        let lenses = self.opened.plan.lenses.len();
-        match stack.top().and_then(|top| top.checked_sub(lenses)) {
-            Some(rule) => Stack::Rule(rule),
-            None => Stack::Lenses(self.files(stack)),
+        match stack.top().map(|top| self.actor(top)) {
+            Some(Actor::Rule(rule)) => Stack::Rule(rule),
+            _ => Stack::Lenses(self.files(stack)),
         }
+    }
+
+    fn actor(&self, rank: usize) -> Actor {
+        let lenses = &self.opened.plan.lenses;
+        lenses.get(rank).map_or_else(|| Actor::Rule(rank - lenses.len()), |lens| Actor::Lens(lens.index))
     }
 
     fn files(&self, set: LensSet) -> Vec<usize> {

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use crate::case::{
-    Attach, Camera, Case, Color, Compound, Convex, Displacement, Filter, Lens, Patterns, Projection, Rotation, Rule,
-    Shape, When,
+    Attach, Camera, Cap, Case, Color, Compound, Convex, Displacement, Filter, Lens, Patterns, Projection, Rotation,
+    Rule, Shape, When,
 };
 
 /// The whole spec; the models lie beside it.
@@ -174,7 +174,15 @@ fn filter(case: &Case, f: &Filter) -> String {
             let color = color.as_ref().map_or(String::new(), |c| format!(", color = {}", paint(c)));
             format!("wireframe = {{ width = {width}, fill = {}{color} }}", if *filled { 1 } else { 0 })
         }
-        Filter::Erase(what) => format!("erase = {}", patterns(what)),
+        Filter::Erase(Patterns { nodes, materials }, cap) => {
+            let cap = match cap {
+                None => String::new(),
+                Some(Cap::Own) => ", cap = \"own\"".into(),
+                Some(Cap::Color(c)) => format!(", cap = {}", paint(c)),
+                Some(Cap::Hatch(c)) => format!(", cap = {}", quoted(&format!("hatch {}", color(*c)))),
+            };
+            format!("erase = {{ nodes = {}, materials = {}{cap} }}", names(nodes), names(materials))
+        }
         Filter::ShowAlternate(model) => format!("show = {{ alternate = \"{}\" }}", case.models[*model].name),
         Filter::ShowNodes(nodes) => format!("show = {{ nodes = {} }}", names(nodes)),
         Filter::Magnify { factor, center } => {

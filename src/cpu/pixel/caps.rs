@@ -38,14 +38,11 @@ impl CutBodies {
         }
         let mut places = vec![None; plan.instances.len()];
         let mut cut_by = LensSet::EMPTY;
-        for (body, Body { members }) in (0u32..).zip(&plan.bodies) {
-            for (number, member) in (0u32..).zip(members) {
-                places[member.instance] = Some((body, number));
-                let Instance { item, steps, .. } = &plan.instances[member.instance];
-                // What is moved is cut where it is seen: in the lens that moves it.
-                let own = steps.first().map_or(plan.items[*item].capped_by(), |step| LensSet::only(step.rank));
-                cut_by = cut_by | own;
+        for (number, body) in (0u32..).zip(&plan.bodies) {
+            for (member, Member { instance, .. }) in (0u32..).zip(&body.members) {
+                places[*instance] = Some((number, member));
             }
+            cut_by = cut_by | plan.cutters(body);
         }
         let cut_by = (cut_by.minus(plan.by_pixel).is_empty()).then_some(cut_by);
         Some(Self { geometry: Geometry::of_bodies(scene, plan), places, cut_by })
@@ -92,28 +89,27 @@ impl Tracer<'_> {
     /// The caps of one body on a ray, in front of where it surely ends.
     fn close_body(&self, body: &Body, crossings: &[Crossing], one: &mut OneRay, mut found: impl FnMut(f64, Fragment)) {
         let OneRay { ray, layers, moved, opaque, .. } = one;
+        let instance = |member: &Member| &self.plan.instances[member.instance];
         // Members are moved alike.
-        let steps = &self.plan.instances[body.members[0].instance].steps;
+        let steps = &instance(&body.members[0]).steps;
         let layers = moved.all(self.plan, ray, layers, steps);
         for boundary in boundaries((0..=steps.len()).map(&layers)) {
             if opaque.is_some_and(|(opaque, _)| f64::from(opaque.depth) < boundary) {
                 continue;
             }
-            let Some(Member { instance, .. }) = around(body, crossings, boundary) else { continue };
-            let shown = &self.plan.instances[*instance];
             let set = |steps: usize, behind: bool| {
                 if behind { layers(steps).set_at(boundary) } else { layers(steps).set_before(boundary) }
             };
-            if let Some(closing) = self.plan.closing(shown, set) {
-                let cap = Fragment {
-                    instance: *instance as u32,
-                    triangle: cap_number(closing.maker),
-                    depth: boundary as f32,
-                    weights: cap_normal(self.plan, shown, ray, boundary, &closing),
-                    region: closing.region,
-                };
-                found(boundary, cap);
-            }
+            let closed = |member: &Member| Some((member.instance, self.plan.closing(instance(member), set)?));
+            let Some((number, closing)) = around(body, crossings, boundary).find_map(closed) else { continue };
+            let cap = Fragment {
+                instance: number as u32,
+                triangle: cap_number(closing.maker),
+                depth: boundary as f32,
+                weights: cap_normal(self.plan, &self.plan.instances[number], ray, boundary, &closing),
+                region: closing.region,
+            };
+            found(boundary, cap);
         }
     }
 }
@@ -127,20 +123,24 @@ fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>) -> Vec<f64> {
     depths
 }
 
-/// The member of a body that a boundary lies in: the first that encloses it by itself, else the first of those that do so
-/// together; `None` where the boundary lies outside.
+/// The members of a body that may be closed at a boundary: those that enclose it by themselves, and the first of the
+/// others where those do so together. None where the boundary lies outside.
 ///
 /// Told by what lies behind, so that it makes no difference where the ray starts. A surface in the boundary lies behind it.
-fn around<'b>(body: &'b Body, crossings: &[Crossing], boundary: f64) -> Option<&'b Member> {
-    let behind = || crossings.iter().filter(|crossing| !starts_boundary(f64::from(crossing.depth), boundary));
-    if behind().map(|crossing| crossing.winding).sum::<i32>() == 0 {
-        return None;
-    }
-    let encloses = |number: u32| {
-        behind().filter(|crossing| crossing.member == number).map(|crossing| crossing.winding).sum::<i32>() != 0
+fn around<'b>(body: &'b Body, crossings: &'b [Crossing], boundary: f64) -> impl Iterator<Item = &'b Member> {
+    let winding = move |counts: &dyn Fn(usize) -> bool| {
+        let behind = crossings.iter().filter(|crossing| !starts_boundary(f64::from(crossing.depth), boundary));
+        behind.filter(|crossing| counts(crossing.member as usize)).map(|crossing| crossing.winding).sum::<i32>()
     };
-    let alone = (0u32..).zip(&body.members).find(|(number, member)| member.closed && encloses(*number));
-    alone.map(|(_, member)| member).or(body.members.first())
+    let is_closed = |number: usize| body.members[number].closed;
+    let first_open = body.members.iter().position(|member| !member.closed);
+    let encloses = move |number: usize| match is_closed(number) {
+        true => winding(&|other| other == number) != 0,
+        false => Some(number) == first_open && winding(&|other| !is_closed(other)) != 0,
+    };
+    let is_inside = winding(&|_| true) != 0;
+    let numbers = (0..body.members.len()).filter(move |number| is_inside && encloses(*number));
+    numbers.map(|number| &body.members[number])
 }
 
 /// The normal of the boundary that is closed, on the viewer's side, as shown.

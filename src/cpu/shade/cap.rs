@@ -1,10 +1,10 @@
 //! The colour of a cap.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::Vec3;
 
-use super::{Corners, Hit, Shaded, Shader};
+use super::{Corners, Hit, Shaded, Shader, untextured};
 use crate::appearance as wgsl;
-use crate::cpu::convert::{a4, g3, v2, v3, v4};
+use crate::cpu::convert::{a4, g3, v3};
 use crate::pixel::Fragment;
 use crate::plan::{Item, LensSet};
 use crate::spec::Cap;
@@ -16,7 +16,7 @@ impl Shader<'_> {
         let item = &self.plan.items[instance.item];
         let normal = fragment.weights;
         let position = g3(ray.origin) + g3(ray.direction) * fragment.depth;
-        let own = self.own_surface(item, position, normal, ray);
+        let own = untextured(&self.scene.materials[item.material], position, normal, ray);
         let cap = record(item.cap(maker).unwrap_or(Cap::Own), item);
         // Its lines lie where it is cut.
         let source = instance.source_from_shown(maker, false);
@@ -40,30 +40,6 @@ impl Shader<'_> {
         let corner = |number| g3(wgsl::cap_corner(number, v3(position), v3(normal), size));
         let primitive = &self.scene.models[item.model].meshes[item.mesh].primitives[item.primitive];
         Corners { primitive, indices: [0; 3], around: [0, 1, 2].map(corner), is_of_cap: true }
-    }
-
-    /// The surface that an item's material has where it has no texture.
-    fn own_surface(&self, item: &Item, position: Vec3, normal: Vec3, ray: &wgsl::PixelRay) -> wgsl::Surface {
-        let material = &self.scene.materials[item.material];
-        wgsl::Surface {
-            position: v3(position),
-            normal: v3(normal),
-            view: v3(-g3(ray.direction).normalize()),
-            factor: a4(material.base_color),
-            texel: v4(Vec4::ONE),
-            metallic: material.metallic,
-            roughness: material.roughness,
-            emissive: v3(Vec3::from_array(material.emissive)),
-            occlusion: 1.0,
-            alpha_mode: material.alpha_mode,
-            alpha_cutoff: material.alpha_cutoff,
-            opacity: 1.0,
-            unlit: material.unlit as f32,
-            pixel: ray.pixel,
-            toon: v2(Vec2::ZERO),
-            hatch: v4(Vec4::ZERO),
-            hatch_lines: v2(Vec2::ONE),
-        }
     }
 }
 

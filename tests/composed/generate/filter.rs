@@ -2,7 +2,7 @@
 
 use super::scene::{MATERIAL_PATTERNS, NODE_PATTERNS};
 use super::{color, pick, point, rounded, tidy};
-use crate::case::{Case, Displacement, Filter, Patterns};
+use crate::case::{Cap, Case, Displacement, Filter, Patterns};
 use crate::random::Random;
 
 /// One or two of a lens; `moves`: a mover may be among them.
@@ -30,8 +30,20 @@ pub fn filter(case: &Case, random: &mut Random) -> Filter {
             color: random.chance(0.5).then(|| super::opaque(random)),
             filled: random.chance(0.4),
         },
-        78..90 => Filter::Erase(if random.chance(0.4) { Patterns::default() } else { patterns(random) }),
+        78..90 => Filter::Erase(
+            if random.chance(0.4) { Patterns::default() } else { patterns(random) },
+            (!case.solids.is_empty() && random.chance(0.7)).then(|| cap(random)),
+        ),
         _ => show(case, random),
+    }
+}
+
+/// Most are seen in colours that are known.
+pub fn cap(random: &mut Random) -> Cap {
+    match random.index(6) {
+        0 => Cap::Hatch(color(random)),
+        1 => Cap::Color(color(random)),
+        _ => Cap::Own,
     }
 }
 

@@ -33,6 +33,27 @@ pub fn fade_one(case: &mut Case, random: &mut Random) {
     case.lenses[lens].soft = tidy(random.between(0.02, 0.15));
 }
 
+/// Makes a lens cut something and close it.
+pub fn cap_one(case: &mut Case, random: &mut Random) {
+    let number = random.index(case.lenses.len());
+    let is_solid = |name: &str| name.starts_with("box") || name.starts_with("ball");
+    let solids: Vec<String> = case.models[0].nodes.iter().map(|n| n.name.clone()).filter(|n| is_solid(n)).collect();
+    let lens = &mut case.lenses[number];
+    (lens.enabled, lens.by_object) = (true, false);
+    (lens.only, lens.except) = (Patterns::default(), Patterns::default());
+    let mut what = if random.chance(0.5) { Patterns::default() } else { filter::patterns(random) };
+    if !solids.is_empty() {
+        let solid = pick(random, &solids).clone();
+        if random.chance(0.7) {
+            // Solids lie across each other, and whose cap is seen there is not said.
+            what = Patterns { nodes: vec![solid.clone()], materials: Vec::new() };
+        }
+        (lens.attach, lens.shape) = (Attach::Node(solid), shape::simple(random));
+        lens.translation = rounded(point(random, 0.3));
+    }
+    lens.filters = vec![Filter::Erase(what, Some(filter::cap(random)))];
+}
+
 fn lens(case: &Case, name: String, moves: bool, random: &mut Random) -> Lens {
     let attach = attach(case, random);
     // What hangs on the camera stands before it.
@@ -66,7 +87,7 @@ fn lens(case: &Case, name: String, moves: bool, random: &mut Random) -> Lens {
 }
 
 fn removes(filter: &Filter) -> bool {
-    matches!(filter, Filter::Erase(_) | Filter::ShowAlternate(_) | Filter::ShowNodes(_))
+    matches!(filter, Filter::Erase(..) | Filter::ShowAlternate(_) | Filter::ShowNodes(_))
 }
 
 fn attach(case: &Case, random: &mut Random) -> Attach {

@@ -48,6 +48,7 @@ pub fn case(seed: u64) -> Case {
     let movers = 1 + random.index(MOVERS);
     lens::add(&mut case, count, movers, random);
     lens::fade_one(&mut case, random);
+    lens::cap_one(&mut case, random);
     if random.chance(0.4) {
         rule::add(&mut case, random);
     }

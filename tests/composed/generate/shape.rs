@@ -31,7 +31,7 @@ fn any(case: &Case, depth: usize, random: &mut Random) -> Shape {
     simple(random)
 }
 
-fn simple(random: &mut Random) -> Shape {
+pub fn simple(random: &mut Random) -> Shape {
     let center = rounded(point(random, 0.5));
     let radius = tidy(random.between(0.25, 0.8));
     let to = rounded(center + direction(random) * random.between(0.3, 1.2));

@@ -2,11 +2,12 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::caps::{self, Body};
 use super::solid::hit;
 use super::view::{Ray, View};
 use super::walk::{Act, Actor, Composition, Met, Outcome, Subject};
 use super::{names, place};
-use crate::case::{Case, Filter};
+use crate::case::{Cap, Case, Filter};
 
 /// Surfaces closer than this share of the depth to a boundary or to each other, at least of one unit, are in doubt.
 pub const DOUBT: f64 = 1e-4;
@@ -27,6 +28,7 @@ pub struct Stage<'a> {
     pub composition: Composition<'a>,
     pub subjects: Vec<Subject>,
     candidates: Vec<Candidate>,
+    pub bodies: Vec<Body>,
     /// The largest depth of a corner of a scene's triangle in its place.
     farthest: f64,
 }
@@ -35,10 +37,26 @@ pub struct Stage<'a> {
 pub struct Hit {
     pub depth: f64,
     pub subject: usize,
-    /// World space, where it is shown.
-    pub triangle: [DVec3; 3],
+    pub surface: Surface,
     /// `None` where rounding decides whether and how it is shown, or SEMANTICS does not say.
     pub met: Option<Met>,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Surface {
+    /// World space, where it is shown.
+    Triangle([DVec3; 3]),
+    /// Whose it is, and what it looks like.
+    Cap(Actor, Cap),
+    /// A cap, if anything, but SEMANTICS does not say which.
+    Open,
+}
+
+impl Hit {
+    /// Who closes a solid here.
+    pub fn cap_by(&self) -> Option<Actor> {
+        if let Surface::Cap(by, _) = self.surface { Some(by) } else { None }
+    }
 }
 
 impl<'a> Stage<'a> {
@@ -54,13 +72,15 @@ impl<'a> Stage<'a> {
             corners.map(|p| (world.transform_point3(*p) - view.eye).dot(view.forward)).fold(f64::NEG_INFINITY, f64::max)
         };
         let farthest = subjects.iter().map(placed).fold(f64::NEG_INFINITY, f64::max);
-        let mut stage = Self { case, view, composition, subjects, candidates: Vec::new(), farthest };
+        let mut stage =
+            Self { case, view, composition, subjects, candidates: Vec::new(), bodies: Vec::new(), farthest };
         for subject in 0..stage.subjects.len() {
             for chain in 0..1usize << movers.len() {
                 let moves = (0..movers.len()).filter(|i| chain >> i & 1 == 1).map(|i| movers[i]).collect();
                 stage.candidates.extend(stage.candidate(subject, moves));
             }
         }
+        stage.bodies = caps::bodies(&stage);
         stage
     }
 
@@ -103,11 +123,12 @@ impl<'a> Stage<'a> {
                 let met = match self.meet(candidate, ray, depth) {
                     Outcome::Gone => continue,
                     Outcome::Shown(met) => Some(met),
-                    Outcome::Open => None,
+                    Outcome::Open | Outcome::Erased(..) => None,
                 };
-                hits.push(Hit { depth, subject: candidate.subject, triangle: *triangle, met });
+                hits.push(Hit { depth, subject: candidate.subject, surface: Surface::Triangle(*triangle), met });
             }
         }
+        hits.extend(caps::hits(self, ray));
         hits.sort_by(|a, b| a.depth.total_cmp(&b.depth));
         hits
     }
@@ -130,6 +151,7 @@ impl<'a> Stage<'a> {
         }
         match self.composition.walk(&self.subjects[candidate.subject], ray.at(depth)) {
             Outcome::Shown(met) if met.moves != candidate.moves => Outcome::Gone,
+            Outcome::Erased(..) => Outcome::Gone,
             outcome => outcome,
         }
     }

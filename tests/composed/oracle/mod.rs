@@ -1,6 +1,7 @@
 //! SEMANTICS read directly and slowly, in f64: every triangle, every lens, every way a mover may show something. It
 //! shares no code with the library.
 
+mod caps;
 mod look;
 mod names;
 mod order;
@@ -18,7 +19,7 @@ use shade::Shade;
 use walk::{Act, Met, SAME};
 
 pub use names::matches;
-pub use walk::Stack;
+pub use walk::{Actor, Stack};
 
 /// What one pixel must show.
 #[derive(Debug, Clone)]
@@ -38,6 +39,8 @@ pub struct Visible {
     pub stack: Stack,
     /// Whether a mover brought it where it is shown.
     pub is_moved: bool,
+    /// Who closes a solid there.
+    pub cap_by: Option<Actor>,
     pub node: usize,
     pub depth: f64,
 }
@@ -55,7 +58,7 @@ struct Sight {
 }
 
 /// A fragment's part in a picture: neighbours that have the same see the same things.
-type Part<'a> = (usize, &'a [Act], &'a [usize], &'a Stack);
+type Part<'a> = (usize, &'a [Act], &'a [usize], &'a Stack, Option<Actor>);
 
 impl<'a> Oracle<'a> {
     pub fn new(case: &'a Case) -> Self {
@@ -80,7 +83,8 @@ impl<'a> Oracle<'a> {
             let (hit, met, _) = &sight.fragments[at];
             let node = self.stage.subjects[hit.subject].node;
             let is_moved = !met.moves.is_empty();
-            Visible { set: met.set.clone(), stack: met.stack.clone(), is_moved, node, depth: hit.depth }
+            let (set, stack) = (met.set.clone(), met.stack.clone());
+            Visible { set, stack, is_moved, cap_by: hit.cap_by(), node, depth: hit.depth }
         });
         let color = self.color(&sight, x, y);
         Some(Expected { visible, layers, color })
@@ -168,6 +172,9 @@ impl<'a> Oracle<'a> {
 
 impl Sight {
     fn parts(&self) -> impl Iterator<Item = Part<'_>> {
-        self.fragments.iter().map(|(hit, met, _)| (hit.subject, &met.moves[..], &met.set[..], &met.stack))
+        fn part((hit, met, _): &(Hit, Met, Shade)) -> Part<'_> {
+            (hit.subject, &met.moves, &met.set, &met.stack, hit.cap_by())
+        }
+        self.fragments.iter().map(part)
     }
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::look::{Hit, Stage};
+use super::look::{Hit, Stage, Surface};
 use super::walk::{Actor, Met, Stack};
-use crate::case::{Color, Filter};
+use crate::case::{Cap, Color, Filter};
 
 /// A fragment as it goes into the picture.
 #[derive(Debug, Clone)]
@@ -28,6 +28,8 @@ type Acting<'a> = (&'a Filter, Option<f64>);
 
 fn acting<'a>(stage: &Stage<'a>, hit: &Hit, met: &Met) -> Vec<Acting<'a>> {
     let lenses = match &met.stack {
+        // Whose cap it is does nothing else to it.
+        Stack::Rule(rule) if hit.cap_by() == Some(Actor::Rule(*rule)) => return Vec::new(),
         Stack::Rule(rule) => return stage.case.rules[*rule].filters.iter().map(|filter| (filter, Some(1.0))).collect(),
         Stack::Lenses(lenses) => lenses,
     };
@@ -44,7 +46,7 @@ fn acting<'a>(stage: &Stage<'a>, hit: &Hit, met: &Met) -> Vec<Acting<'a>> {
         let amount = amount(*lens);
         stage.case.lenses[*lens].filters.iter().map(move |filter| (filter, amount))
     };
-    lenses.iter().flat_map(of).collect()
+    lenses.iter().filter(|lens| hit.cap_by() != Some(Actor::Lens(**lens))).flat_map(of).collect()
 }
 
 /// From what was to what a filter makes of it, as far as both are known.
@@ -69,6 +71,12 @@ fn surface(stage: &Stage, hit: &Hit, filters: &[Acting]) -> (Option<DVec3>, f64)
     let [r, g, b, mut opacity] = material.color;
     let mut base = Some(DVec3::new(r, g, b));
     let mut lit = if material.unlit { 0.0 } else { 1.0 };
+    if let Surface::Cap(_, Cap::Color(color) | Cap::Hatch(color)) = hit.surface {
+        (base, lit, opacity) = (None, 1.0, f64::from(color[3]) / 255.0);
+        if let Surface::Cap(_, Cap::Color(_)) = hit.surface {
+            base = Some(linear(color));
+        }
+    }
     let mut opacity_is_known = true;
     for (filter, amount) in filters {
         match filter {
@@ -139,8 +147,10 @@ fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], distanc
 
 /// Pixels from a place of the picture to the nearest edge of a triangle, where it is shown.
 fn wire_distance(stage: &Stage, hit: &Hit, [x, y]: [f64; 2]) -> f64 {
+    // A cap has no edges.
+    let Surface::Triangle(triangle) = hit.surface else { return f64::INFINITY };
     let distance = |i: usize| {
-        let (a, b) = (hit.triangle[i], hit.triangle[(i + 1) % 3]);
+        let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
         let [a, b] = [a, b].map(|p| stage.view.project(p));
         let (along, from) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
         (along[0] * from[1] - along[1] * from[0]).abs() / along[0].hypot(along[1])

@@ -260,8 +260,16 @@ impl Solid {
                 let n = newell(corners);
                 let away = if n.dot(sight.towards_eye(corners[0])) > 0.0 { -n } else { n };
                 let start = away.dot(corners[0]);
-                // A view ray crosses no side: those are planes through the eye.
-                depth.iter().map(|depth| start + depth).chain([start]).map(|e| plane(away, e)).collect()
+                let mut all: Vec<f64> =
+                    depth.iter().map(|depth| start + depth).chain([start]).map(|e| plane(away, e)).collect();
+                // A view ray crosses no side, for those are planes through the eye; one that a mover brings does.
+                let from_eye = sight.along.unwrap_or(o - sight.eye);
+                if from_eye.cross(d).length() > 1e-9 * from_eye.length() * d.length() {
+                    let edges = (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()]));
+                    let side = |(a, b): (DVec3, DVec3)| (b - a).cross(sight.towards_eye(a));
+                    all.extend(edges.map(|(a, b)| plane(side((a, b)), side((a, b)).dot(a))));
+                }
+                all
             }
             Solid::Mesh(triangles) => triangles.iter().filter_map(|t| hit(ray, t)).collect(),
             Solid::Compound(_, parts) => parts.iter().flat_map(|part| part.crossings(ray, sight)).collect(),

@@ -6,7 +6,7 @@ use super::names::{self, either_matches, node_matches};
 use super::solid::{Sight, Solid};
 use super::view::{Ray, View};
 use super::{order, place};
-use crate::case::{Case, Displacement, Filter, Patterns};
+use crate::case::{Cap, Case, Displacement, Filter, Patterns};
 
 /// Crossings closer than this share are surely one boundary.
 pub const SAME: f64 = 1e-6;
@@ -68,7 +68,18 @@ impl Met {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
     Gone,
+    /// Erasers alone take it away.
+    Erased(Met, Closed),
     Shown(Met),
+    Open,
+}
+
+/// What closes a solid where it is erased.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Closed {
+    Not,
+    By(Actor, Cap),
+    /// SEMANTICS does not say what.
     Open,
 }
 
@@ -253,9 +264,9 @@ impl<'a> Composition<'a> {
     /// What a filter does to a fragment that is there when it acts.
     fn effect(&self, act: Act, subject: &Subject) -> Effect {
         match self.filter(act) {
-            Filter::Erase(what) if what.is_empty() || self.is_any(subject, what) => Effect::Removes,
+            Filter::Erase(what, cap) if what.is_empty() || self.is_any(subject, what) => Effect::Erases(*cap),
             Filter::ShowAlternate(_) | Filter::ShowNodes(_) if subject.shown_by == Some(act) => Effect::Brings,
-            Filter::ShowAlternate(_) | Filter::ShowNodes(_) => Effect::Removes,
+            Filter::ShowAlternate(_) | Filter::ShowNodes(_) => Effect::Replaces,
             Filter::Magnify { .. } | Filter::Displace { .. } => {
                 self.source_from_shown(act, subject).map_or(Effect::Nothing, Effect::Moves)
             }
@@ -266,12 +277,18 @@ impl<'a> Composition<'a> {
     /// A rule's filters on the plain scene.
     fn styled(&self, rule: usize, subject: &Subject, set: Vec<usize>) -> Outcome {
         let by = Actor::Rule(rule);
+        let met = Met { set, stack: Stack::Rule(rule), moves: Vec::new(), asked: Vec::new() };
+        let filters = 0..self.filters(by).len();
+        let effects: Vec<Effect> = filters.map(|filter| self.effect(Act { by, filter }, subject)).collect();
         // What the list ends with comes from its last filters; a `show` makes those before it vain.
-        let effects = (0..self.filters(by).len()).rev().map(|filter| self.effect(Act { by, filter }, subject));
-        let decisive = effects.into_iter().find(|effect| !matches!(effect, Effect::Nothing));
-        match (decisive, subject.shown_by) {
-            (Some(Effect::Brings), Some(_)) | (None, None) => {
-                Outcome::Shown(Met { set, stack: Stack::Rule(rule), moves: Vec::new(), asked: Vec::new() })
+        let decisive = effects.iter().rfind(|effect| !matches!(effect, Effect::Nothing));
+        let is_replaced = effects.iter().any(|effect| matches!(effect, Effect::Replaces));
+        // The first eraser leaves nothing to the others.
+        let erased = effects.iter().find_map(|effect| if let Effect::Erases(cap) = effect { Some(*cap) } else { None });
+        match (decisive, subject.shown_by, erased) {
+            (Some(Effect::Brings), Some(_), _) | (None, None, _) => Outcome::Shown(met),
+            (_, None, Some(cap)) if !is_replaced => {
+                Outcome::Erased(met, cap.map_or(Closed::Not, |cap| Closed::By(by, cap)))
             }
             _ => Outcome::Gone,
         }
@@ -283,6 +300,9 @@ impl<'a> Composition<'a> {
         let (mut moves, mut asked) = (Vec::new(), Vec::new());
         let mut at = p;
         let mut shown = false;
+        // What erasers close it with, the highest first.
+        let mut erased: Vec<Closed> = Vec::new();
+        let (mut is_replaced, mut is_open) = (false, false);
         for lens in self.order.iter().rev().copied() {
             if !self.contains(lens, subject, at) {
                 continue;
@@ -291,7 +311,7 @@ impl<'a> Composition<'a> {
             if !self.is_in_scope(lens, subject) && subject.shown_by.is_none_or(|act| act.by != Actor::Lens(lens)) {
                 if !is_hidden && !shown && self.names_content_of(lens, subject) {
                     // Whether what a lower lens shows is in the scope of one that shows the same is not said.
-                    return Outcome::Open;
+                    is_open = true;
                 }
                 continue;
             }
@@ -301,6 +321,8 @@ impl<'a> Composition<'a> {
             }
             survivors.insert(0, lens);
             asked.push((lens, at));
+            let (place, moves_above) = (at, moves.len());
+            let (mut erases, mut replaces): (Option<Closed>, bool) = (None, false);
             // The last filter of the list made what is seen of what the one before it made, and so on.
             for filter in (0..self.filters(Actor::Lens(lens)).len()).rev() {
                 let act = Act { by: Actor::Lens(lens), filter };
@@ -309,25 +331,48 @@ impl<'a> Composition<'a> {
                     _ if shown => {}
                     Effect::Nothing => {}
                     Effect::Brings => shown = true,
-                    Effect::Removes => return Outcome::Gone,
+                    Effect::Replaces => replaces = true,
+                    // Of several the first, which leaves nothing to the others. A lens that takes whole objects cuts none.
+                    Effect::Erases(Some(cap)) if !self.case.lenses[lens].by_object => {
+                        erases = Some(Closed::By(act.by, cap));
+                    }
+                    Effect::Erases(_) => erases = Some(Closed::Not),
                     Effect::Moves(source_from_shown) => {
                         at = source_from_shown.transform_point3(at);
                         moves.push(act);
                     }
                 }
             }
+            if replaces || erases.is_some() {
+                // Nothing is left for it to move.
+                at = place;
+                moves.truncate(moves_above);
+            }
+            is_replaced |= replaces;
+            erased.extend(erases);
         }
-        if shown != subject.shown_by.is_some() {
-            return Outcome::Gone;
+        let met = Met { set, stack: Stack::Lenses(survivors), moves, asked };
+        let closes = erased.iter().any(|closed| *closed != Closed::Not);
+        match erased.first() {
+            None if is_replaced => Outcome::Gone,
+            None if is_open => Outcome::Open,
+            _ if shown != subject.shown_by.is_some() => Outcome::Gone,
+            None => Outcome::Shown(met),
+            // Whether what else takes it away leaves something to close is not said.
+            Some(_) if closes && (is_replaced || is_open || erased[0] == Closed::Not) => {
+                Outcome::Erased(met, Closed::Open)
+            }
+            Some(closed) => Outcome::Erased(met, *closed),
         }
-        Outcome::Shown(Met { set, stack: Stack::Lenses(survivors), moves, asked })
     }
 }
 
 /// What a filter does to content.
 enum Effect {
     Nothing,
-    Removes,
+    Erases(Option<Cap>),
+    /// Something else is shown.
+    Replaces,
     Brings,
     /// What it shows at a point comes from where this leads.
     Moves(DAffine3),

@@ -1,11 +1,11 @@
 // What a fragment of the scene leaves where simplified versions are shown: what fills gaps between them gives way to what
 // lies a little farther from the eye.
 
-struct Drawn {
+struct Kept {
     @location(0) found: vec2u,
     @builtin(frag_depth) z: f32,
 }
 
-fn drawn(found: vec2u, z: f32) -> Drawn {
-    return Drawn(found, z);
+fn kept(found: vec2u, z: f32) -> Kept {
+    return Kept(found, z);
 }
