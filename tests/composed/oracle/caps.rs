@@ -101,12 +101,14 @@ pub fn hits(stage: &Stage, ray: &Ray) -> Vec<Hit> {
         let is_innermost =
             |inner: &Body| there.iter().all(|(_, outer, _)| std::ptr::eq(*outer, inner) || inner.lies_in(outer));
         let is_clear = there.iter().all(|(.., cut)| *cut != Cut::Open);
-        let (depth, body, cut) = there.iter().find(|(_, body, _)| is_clear && is_innermost(body)).unwrap_or(&there[0]);
-        let (surface, met) = match cut {
-            Cut::Cap(by, look, met) if is_clear && is_innermost(body) => (Surface::Cap(*by, *look), Some(met.clone())),
-            _ => (Surface::Open, None),
-        };
-        Hit { depth: *depth, subject: body.subjects.start, surface, met }
+        let subject = |body: &Body| body.subjects.start;
+        match there.iter().find(|(_, body, _)| is_clear && is_innermost(body)) {
+            Some((depth, body, Cut::Cap(by, look, met))) => {
+                let surface = Surface::Cap(*by, *look);
+                Hit { depth: *depth, subject: subject(body), surface, met: Some(met.clone()) }
+            }
+            _ => Hit { depth: there[0].0, subject: subject(there[0].1), surface: Surface::Open, met: None },
+        }
     };
     cuts.chunk_by(at_one_depth).map(hit).collect()
 }
