@@ -1,4 +1,4 @@
-//! One graphics device for all tests of a process.
+//! Graphics devices for all tests of a process: one an engine, so that two tests draw at a time.
 //!
 //! Without an adapter GPU tests report as ignored; where `LENSPEEL_REQUIRE_GPU` is 1 they run and fail.
 
@@ -20,7 +20,7 @@ pub fn is_ignored() -> bool {
 
 /// The picture with its AOVs.
 pub fn render(opened: &Opened, engine: Engine) -> Result<Frame, String> {
-    let device = device()?.lock().map_err(|_| "a test that held the device has panicked")?;
+    let device = device(engine)?.lock().map_err(|_| "a test that held the device has panicked")?;
     let options = RenderOptions { engine, aovs: true };
     device.render(&opened.scene, &opened.plan, options).map_err(|error| error.to_string())
 }
@@ -31,18 +31,19 @@ pub fn with_renderer<T>(
     opened: &Opened,
     work: impl FnOnce(&Headless, &mut Renderer) -> Result<T, String>,
 ) -> Result<T, String> {
-    let device = device()?.lock().map_err(|_| "a test that held the device has panicked")?;
+    let device = device(Engine::Fused)?.lock().map_err(|_| "a test that held the device has panicked")?;
     let mut renderer = device.renderer(&opened.scene).map_err(|error| error.to_string())?;
     work(&device, &mut renderer)
 }
 
-fn device() -> Result<&'static Mutex<Headless>, String> {
-    static DEVICE: OnceLock<Result<Mutex<Headless>, String>> = OnceLock::new();
+fn device(engine: Engine) -> Result<&'static Mutex<Headless>, String> {
+    static DEVICES: [OnceLock<Result<Mutex<Headless>, String>>; 2] = [const { OnceLock::new() }; 2];
     let open = || {
         let choice = choose_named(None).map_err(|error| error.to_string())?;
         let device = Headless::new(&choice).map_err(|error| error.to_string())?;
         eprintln!("adapter: {}", device.reason);
         Ok(Mutex::new(device))
     };
-    DEVICE.get_or_init(open).as_ref().map_err(Clone::clone)
+    let number = ENGINES.iter().position(|(known, _)| *known == engine).unwrap_or_default();
+    DEVICES[number].get_or_init(open).as_ref().map_err(Clone::clone)
 }
