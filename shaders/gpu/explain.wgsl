@@ -1,7 +1,7 @@
 // The fragment that is drawn at a window's one pixel, or a cap before it, classified and shaded. Twin of `explain.rs`.
 
-// Found, instance, number of its triangle among all, number of its cap or NONE, depth, displayed (2: it fills), opacity, coverage, weights, normal, then the
-// words of the set and of the stack.
+// Found, instance, number of its triangle among all, number of its cap or NONE, depth, displayed (2: it fills a gap),
+// opacity, coverage, weights, normal, then the words of the set and of the stack.
 @group(2) @binding(4) var<storage, read_write> report: array<u32>;
 
 @compute @workgroup_size(1)
