@@ -8,6 +8,7 @@ mod check;
 mod contract;
 mod fuel;
 mod naga_errors;
+mod opacity;
 mod params;
 mod program;
 mod signature;
@@ -56,6 +57,7 @@ pub struct Custom {
     program: Program,
     surface: Option<Entry>,
     color: Option<Entry>,
+    may_change_opacity: bool,
 }
 
 impl Custom {
@@ -123,6 +125,11 @@ impl Custom {
         self.surface.is_some()
     }
 
+    /// Whether `filter_surface` may give surfaces another opacity; it may say so of a file that never does.
+    pub fn may_change_opacity(&self) -> bool {
+        self.may_change_opacity
+    }
+
     /// Whether the file has `filter_color`.
     pub fn has_color(&self) -> bool {
         self.color.is_some()
@@ -187,9 +194,11 @@ fn read(text: &Text) -> Result<Custom, InputError> {
     let params = signature.params.map(|ty| params::read(text, &module, ty)).transpose()?.unwrap_or_default();
     let (program, calls) = compile(text, &module, &info, &signature)?;
     let [surface, color] = calls;
+    let may_change_opacity = surface.is_some() && opacity::may_change(text, &module, &info);
     let unwritten = |why: String| text.error(None, format!("the file cannot be written for the GPU: {why}"));
     let gpu = write::module(module, &info, &signature, &params).map_err(|error| unwritten(error.to_string()))?;
-    let custom = Custom { name: text.user.name.clone(), params, text: gpu, program, surface, color };
+    let custom =
+        Custom { name: text.user.name.clone(), params, text: gpu, program, surface, color, may_change_opacity };
     // What is accepted here must not fail later, in a shader where its lines mean nothing to the user.
     validated(&write::sample(&custom)).map_err(unwritten)?;
     Ok(custom)

@@ -95,8 +95,7 @@ impl Op {
         let color_alpha = self.a[3] < 1.0;
         let has_color = self.flags & wgsl::HAS_COLOR.0 != 0;
         match self.kind {
-            // It may do anything with opacity.
-            k if k == wgsl::OP_WGSL.0 => self.flags & CUSTOM_SURFACE != 0,
+            k if k == wgsl::OP_WGSL.0 => self.flags & CUSTOM_OPACITY != 0,
             k if k == wgsl::OP_OPACITY.0 => self.a[0] < 1.0,
             k if k == wgsl::OP_GHOST.0 => self.b[0] > 0.0 || (has_color && color_alpha),
             k if k == wgsl::OP_WIREFRAME.0 || k == wgsl::OP_POINTS.0 => true,
@@ -114,6 +113,8 @@ impl Op {
 /// Flags of the user's own filters: which functions their files have.
 const CUSTOM_SURFACE: u32 = 1;
 const CUSTOM_COLOR: u32 = 2;
+/// And whether they may change how opaque surfaces are.
+const CUSTOM_OPACITY: u32 = 4;
 
 impl<'a> Ops<'a> {
     pub fn new(spec: &'a Spec, scene: &'a Scene, view: &'a View) -> Self {
@@ -206,7 +207,8 @@ impl<'a> Ops<'a> {
             self.customs.len() - 1
         });
         let op = Op { texture: number as u32, flags: first << 16, ..Op::new(wgsl::OP_WGSL, NONE, NONE) };
-        Ok(op.flagged(CUSTOM_SURFACE, custom.has_surface()).flagged(CUSTOM_COLOR, custom.has_color()))
+        let op = op.flagged(CUSTOM_SURFACE, custom.has_surface()).flagged(CUSTOM_COLOR, custom.has_color());
+        Ok(op.flagged(CUSTOM_OPACITY, custom.may_change_opacity()))
     }
 
     fn false_color(&mut self, quantity: &Quantity, colormap: &str, range: Option<[f64; 2]>) -> Result<Op, InputError> {

@@ -11,7 +11,7 @@ use crate::{files, generate};
 /// Cases in the tests; `LENSPEEL_COMPOSED_CASES` asks for another number. The GPU gets fewer: a software one takes
 /// seconds to compile the shaders of each mixture of features.
 const CASES: u64 = 40;
-const CASES_ON_GPU: u64 = 6;
+const CASES_ON_GPU: u64 = 3;
 
 /// The seeds to run for a party, from `LENSPEEL_COMPOSED_SEED` on; those that need the same shaders one after the other,
 /// for a software GPU keeps only a few.

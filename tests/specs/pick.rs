@@ -7,8 +7,8 @@ use lenspeel::pick::Pick;
 use crate::entry::Entry;
 use crate::open::Opened;
 
-/// Specs that take away, show, move, rule, and shine through.
-pub const SPECS: [&str; 12] = [
+/// Specs that take away, show, move, rule, simplify, and shine through.
+pub const SPECS: [&str; 13] = [
     "filters/erase",
     "filters/show-alternate",
     "movers/two-magnifiers-hides",
@@ -21,6 +21,7 @@ pub const SPECS: [&str; 12] = [
     "caps/translucent",
     "caps/magnified",
     "caps/hides",
+    "lod/erased",
 ];
 
 /// At every pixel the CPU backend picks what its maps have, and what is picked from the maps is the same.

@@ -206,6 +206,31 @@ fn a_file_may_have_one_function_and_the_other_changes_nothing() {
 }
 
 #[test]
+fn a_file_that_leaves_opacity_alone_is_known() {
+    let surface = |body: &str| read(&format!("fn filter_surface(s: Surface) -> Surface {{ {body} }}"));
+    for body in [
+        "return s;",
+        "var r = s; r.base_color *= s.opacity; return r;",
+        "var r = s; let copy = r; r = copy; r.unlit = copy.opacity; return r;",
+    ] {
+        assert!(!surface(body).may_change_opacity(), "{body}");
+    }
+    for body in [
+        "var r = s; r.opacity = 0.5; return r;",
+        "var r: Surface; r.base_color = s.base_color; return r;",
+        "var r = Surface(); return r;",
+        "var r : Surface /* zero */; if s.unlit > 2.0 { r = s; } return r;",
+        "var r = array<Surface, 2>(); return r[1];",
+    ] {
+        assert!(surface(body).may_change_opacity(), "{body}");
+    }
+    let by_helper = "fn clear(r: ptr<function, Surface>) { (*r).opacity = 0.1; }
+        fn filter_surface(s: Surface) -> Surface { var r = s; clear(&r); return r; }";
+    assert!(read(by_helper).may_change_opacity());
+    assert!(!read("fn filter_color(c: vec3f, s: Surface) -> vec3f { return c * s.opacity; }").may_change_opacity());
+}
+
+#[test]
 fn filters_run_on_many_threads_at_once() {
     let custom = read(
         "fn filter_color(c: vec3f, s: Surface) -> vec3f {
