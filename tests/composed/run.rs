@@ -1,5 +1,6 @@
 //! Many cases, one after the other; a failure is made small and written where it can be run again.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::case::Case;
@@ -8,10 +9,10 @@ use crate::product::Party;
 use crate::shrink::shrink;
 use crate::{files, generate};
 
-/// Cases in the tests; `LENSPEEL_COMPOSED_CASES` asks for another number. The GPU gets fewer: a software one takes
-/// seconds to compile the shaders of each mixture of features.
-const CASES: u64 = 40;
-const CASES_ON_GPU: u64 = 3;
+/// Seeds in the tests; `LENSPEEL_COMPOSED_CASES` and `LENSPEEL_COMPOSED_SEED` ask for others. The GPU gets fewer, which
+/// between them cut, move and have a rule: a software one takes seconds to compile the shaders of each mixture.
+const SEEDS: Range<u64> = 0..40;
+const SEEDS_ON_GPU: Range<u64> = 3..6;
 
 /// The seeds to run for a party, from `LENSPEEL_COMPOSED_SEED` on; those that need the same shaders one after the other,
 /// for a software GPU keeps only a few.
@@ -20,9 +21,10 @@ fn seeds(party: Party) -> Vec<u64> {
         let text = std::env::var(name).ok()?;
         Some(text.parse::<u64>().unwrap_or_else(|_| panic!("{name} must be a whole number, not `{text}`")))
     };
-    let first = number("LENSPEEL_COMPOSED_SEED").unwrap_or(0);
-    let usual = if matches!(party, Party::Cpu) { CASES } else { CASES_ON_GPU };
-    let mut seeds: Vec<u64> = (first..first + number("LENSPEEL_COMPOSED_CASES").unwrap_or(usual)).collect();
+    let usual = if matches!(party, Party::Cpu) { SEEDS } else { SEEDS_ON_GPU };
+    let first = number("LENSPEEL_COMPOSED_SEED").unwrap_or(usual.start);
+    let count = number("LENSPEEL_COMPOSED_CASES").unwrap_or(usual.end - usual.start);
+    let mut seeds: Vec<u64> = (first..first + count).collect();
     seeds.sort_by_cached_key(|seed| {
         let case = generate::case(*seed);
         (case.lenses.len() > 12, !case.solids.is_empty())
