@@ -71,21 +71,23 @@ fn depths((scene, plan): &(Scene, Plan)) -> Vec<f32> {
     cpu::Renderer::new(scene, plan).render(true, &|_| ()).aovs.expect("they were asked for").depth
 }
 
-/// How far versions may lie from each other: at the rim of a part what lies behind it is seen in one of them.
-fn planned_spread(case: &Case) -> f32 {
-    let plan = planned(case, Some(case.shape)).1;
-    plan.instances.iter().map(|instance| instance.spread).fold(0.0, f64::max) as f32
+/// How far versions of what is seen may lie from each other: at the rim of a part what lies behind it is seen in one of them.
+fn spreads((scene, plan): &(Scene, Plan)) -> Vec<f32> {
+    let instances = cpu::Renderer::new(scene, plan).render(true, &|_| ()).aovs.expect("they were asked for").instances;
+    let spread = |instance: u32| plan.instances.get(instance as usize).map_or(0.0, |instance| instance.spread as f32);
+    instances.into_iter().map(spread).collect()
 }
 
 /// Pixels that show something farther than both the whole and the simplified surface, and pixels where those differ.
 fn gaps(case: &Case, change: impl Fn(&mut Plan)) -> (usize, usize) {
-    let (whole, simplified) = (depths(&planned(case, None)), depths(&planned(case, Some(EVERYWHERE))));
+    let everywhere = planned(case, Some(EVERYWHERE));
+    let (whole, simplified) = (depths(&planned(case, None)), depths(&everywhere));
     let mut mixed = planned(case, Some(case.shape));
     change(&mut mixed.1);
-    let slack = planned_spread(case);
+    let slack = spreads(&everywhere);
     let mixed = depths(&mixed);
-    let gaps = mixed.iter().zip(whole.iter().zip(&simplified));
-    let gaps = gaps.filter(|(seen, (a, b))| **seen > a.max(**b) + slack).count();
+    let gaps = mixed.iter().zip(whole.iter().zip(&simplified).zip(&slack));
+    let gaps = gaps.filter(|(seen, ((a, b), slack))| **seen > a.max(**b) + **slack).count();
     (gaps, whole.iter().zip(&simplified).filter(|(a, b)| a != b).count())
 }
 

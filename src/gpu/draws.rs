@@ -71,9 +71,10 @@ pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, 
         let (range, clusters) = uploaded.primitive(item);
         let shown_from_local = shown_from_local(scene, item, instance);
         let altering = plan.altering(item);
+        let showing = lenses.showing(item);
         for cluster in clusters {
             let bounds = shown_bounds(instance, &shown_from_local, cluster, clusters.len());
-            let rect = window.local(&lenses.seen_rect(instance, item, &bounds));
+            let rect = window.local(&lenses.seen_rect(instance, showing, &bounds));
             if bounds.is_empty() || rect.is_empty() {
                 continue;
             }
@@ -145,23 +146,30 @@ impl<'a> Lenses<'a> {
         self.bounds.get(rank).is_none_or(|own| own.overlaps(bounds))
     }
 
+    /// The lenses without which an item is not seen in place; `None` where it is there anyway.
+    fn showing(&self, item: &Item) -> Option<LensSet> {
+        if item.is_simplified() {
+            return Some(self.plan.simplifying_to(item));
+        }
+        item.is_alternate().then_some(item.shown_by)
+    }
+
     /// Pixels of the whole picture outside which a part of an instance is not seen: its bounds and, where lenses move
     /// it or bring it in, those lenses.
-    fn seen_rect(&self, instance: &Instance, item: &Item, bounds: &Aabb) -> PixelRect {
+    fn seen_rect(&self, instance: &Instance, showing: Option<LensSet>, bounds: &Aabb) -> PixelRect {
         let rect = pixel_rect(&self.plan.view, bounds.corners());
         let around = padded(&self.plan.view, bounds);
         let by_lens = |rank: usize| {
             let is_somewhere = self.plan.by_pixel.contains(rank);
             if is_somewhere { self.plan.lenses[rank].rect } else { rect }
         };
-        match instance.steps.first() {
-            Some(step) => rect.intersection(by_lens(step.rank)),
-            None if item.is_alternate() || item.is_simplified() => {
-                let showing = if item.is_simplified() { self.plan.simplifying_to(item) } else { item.shown_by };
+        match (instance.steps.first(), showing) {
+            (Some(step), _) => rect.intersection(by_lens(step.rank)),
+            (None, Some(showing)) => {
                 let showing = showing.iter().filter(|rank| self.reaches(*rank, &around));
                 rect.intersection(showing.map(by_lens).reduce(PixelRect::union).unwrap_or(PixelRect::EMPTY))
             }
-            None => rect,
+            (None, None) => rect,
         }
     }
 
