@@ -5,8 +5,8 @@ use glam::{DAffine3, DVec3};
 
 use crate::InputError;
 use crate::pixel::FIRST_CAP;
-use crate::scene::{Aabb, Model, Primitive, Scene, Subject};
-use crate::spec::{At, By, Cap, Filter, Pattern, ShowWhat, Spec, lod};
+use crate::scene::{Aabb, Model, Primitive, Scene, Selections, Subject};
+use crate::spec::{At, By, Cap, Filter, Names, Pattern, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,10 +89,9 @@ impl Item {
     }
 
     /// What name patterns are held against.
-    pub(super) fn subject<'a>(&self, scene: &'a Scene) -> Subject<'a> {
-        let model = &scene.models[self.model];
-        let material = &model.materials[self.material - scene.material_base[self.model]].name;
-        Subject { model, node: self.node, material }
+    pub(super) fn subject<'a>(&self, scene: &'a Scene, known: &'a Selections<'a>) -> Subject<'a> {
+        let material = self.material - scene.material_base[self.model];
+        Subject { model: &scene.models[self.model], node: self.node, material, known }
     }
 }
 
@@ -104,15 +103,17 @@ pub(super) fn collect(
     rules: &[Rule],
 ) -> Result<(Vec<Content>, Vec<Item>), InputError> {
     let contents = contents(spec, scene)?;
+    let known = Selections::default();
+    let of_lenses = lenses.iter().map(|lens| &lens.filters).chain(rules.iter().map(|rule| &rule.filters));
+    let relations: Vec<Relation> =
+        of_lenses.enumerate().map(|(rank, filters)| Relation::new(rank, filters, &contents, scene)).collect();
     let mut items: Vec<Item> = Vec::new();
     let mut first_triangle: u64 = 0;
     for (content_index, content) in contents.iter().enumerate() {
         let model = &scene.models[content.model];
+        let is_part = parts(spec, model, content_index, content);
         for node in 0..model.nodes.len() {
-            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_part(spec, model, content_index, content, node))
-            else {
-                continue;
-            };
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_part[node]) else { continue };
             let bounds = model.primitive_bounds(node);
             let center = model.node_bounds(node).center();
             for (index, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
@@ -143,20 +144,16 @@ pub(super) fn collect(
                     caps: Vec::new(),
                     is_cut: false,
                 };
-                let subject = item.subject(scene);
+                let subject = item.subject(scene, &known);
                 for (rank, lens) in lenses.iter().enumerate() {
-                    let lens_spec = &spec.lenses[order[rank]];
-                    if subject.is_in_scope_of(lens_spec) {
+                    if subject.is_in_scope_of(&spec.lenses[order[rank]]) {
                         item.scope.insert(rank);
                     }
-                    relate(&mut item, rank, &lens.filters, &subject, &contents, scene);
                     if lens.by == By::Object && lens.volume.contains(center) {
                         item.object.insert(rank);
                     }
                 }
-                for (number, rule) in rules.iter().enumerate() {
-                    relate(&mut item, lenses.len() + number, &rule.filters, &subject, &contents, scene);
-                }
+                relations.iter().for_each(|relation| relation.set(&mut item, &subject));
                 item.simplified_by =
                     item.simplified_by.minus(LensSet::below(lenses.len()).minus(item.scope | item.shown_by));
                 for version in versions(item, lenses, rules, scene)? {
@@ -213,47 +210,68 @@ pub(super) fn largest_scale(map: &DAffine3) -> f64 {
     [axes.x_axis, axes.y_axis, axes.z_axis].into_iter().map(DVec3::length).fold(0.0, f64::max)
 }
 
-/// Sets what the filters of one lens or rule mean to one item.
-fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, contents: &[Content], scene: &Scene) {
-    if lod(filters.iter()).is_some() {
-        item.simplified_by.insert(rank);
-    }
-    let moves = instances::moves(filters, subject);
-    let last_show = filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
-    // The cap of the first filter that erases it.
-    let erased = |filters: &[Filter]| {
-        filters.iter().find_map(|f| match f {
-            Filter::Erase { nodes, materials, cap } => {
-                let matches = (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials);
-                matches.then_some(*cap)
-            }
+/// What the filters of one lens or rule mean to items.
+struct Relation<'a> {
+    rank: usize,
+    filters: &'a [Filter],
+    /// Where its last `show` stands, and the content that that brings in.
+    show: Option<(usize, Option<usize>)>,
+    simplifies: bool,
+}
+
+impl<'a> Relation<'a> {
+    fn new(rank: usize, filters: &'a [Filter], contents: &[Content], scene: &Scene) -> Self {
+        let show = filters.iter().enumerate().rev().find_map(|(place, filter)| match filter {
+            Filter::Show(what) => Some((place, what)),
             _ => None,
-        })
-    };
-    let Some(show) = last_show else {
-        if let Some(cap) = erased(filters) {
-            item.removed_by.insert(rank);
-            item.caps.extend(cap.map(|cap| (rank, cap)));
-        } else if moves {
-            item.movers.insert(rank);
-        }
-        return;
-    };
-    let Filter::Show(what) = &filters[show] else { return };
-    let brings_in = contents.iter().position(|c| *c == content(what, scene)) == Some(item.content);
-    if brings_in {
-        match erased(&filters[show + 1..]) {
-            None => {
-                item.shown_by.insert(rank);
-                if moves {
-                    item.movers.insert(rank);
-                }
-            }
-            Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
-        }
+        });
+        let show = show.map(|(place, what)| {
+            let shown = content(what, scene);
+            (place, contents.iter().position(|content| *content == shown))
+        });
+        Self { rank, filters, show, simplifies: lod(filters.iter()).is_some() }
     }
-    // Whatever else is in the lens's scope makes room for what it shows.
-    item.removed_by.insert(rank);
+
+    /// Sets what they mean to one item.
+    fn set(&self, item: &mut Item, subject: &Subject<'a>) {
+        let rank = self.rank;
+        if self.simplifies {
+            item.simplified_by.insert(rank);
+        }
+        let moves = instances::moves(self.filters, subject);
+        // The cap of the first filter that erases it.
+        let erased = |filters: &'a [Filter]| {
+            filters.iter().find_map(|f| match f {
+                Filter::Erase { nodes, materials, cap } => {
+                    let matches = (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials);
+                    matches.then_some(*cap)
+                }
+                _ => None,
+            })
+        };
+        let Some((show, shown)) = self.show else {
+            if let Some(cap) = erased(self.filters) {
+                item.removed_by.insert(rank);
+                item.caps.extend(cap.map(|cap| (rank, cap)));
+            } else if moves {
+                item.movers.insert(rank);
+            }
+            return;
+        };
+        if shown == Some(item.content) {
+            match erased(&self.filters[show + 1..]) {
+                None => {
+                    item.shown_by.insert(rank);
+                    if moves {
+                        item.movers.insert(rank);
+                    }
+                }
+                Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
+            }
+        }
+        // Whatever else is in the lens's scope makes room for what it shows.
+        item.removed_by.insert(rank);
+    }
 }
 
 fn content(what: &ShowWhat, scene: &Scene) -> Content {
@@ -293,8 +311,9 @@ fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
 }
 
 fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Result<(), InputError> {
+    let names = Names::new(model.nodes.iter().map(|node| node.name.as_str()));
     for pattern in patterns {
-        if !(0..model.nodes.len()).any(|n| model.node_matches(n, &pattern.value)) {
+        if !names.any(&pattern.value) {
             let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
             return Err(InputError::at(&spec.source, pattern.span.clone(), message)
                 .help(model.nearest_node_name(&pattern.value.0)));
@@ -303,10 +322,13 @@ fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Re
     Ok(())
 }
 
-fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {
-    let wanted = match &content.nodes {
-        Some(patterns) => patterns.iter().any(|p| model.node_matches(node, p)),
-        None => index != 0 || !spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value)),
+/// For each node whether a content draws it.
+fn parts(spec: &Spec, model: &Model, index: usize, content: &Content) -> Vec<bool> {
+    let (patterns, wanted): (Vec<&Pattern>, bool) = match &content.nodes {
+        Some(patterns) => (patterns.iter().collect(), true),
+        None if index == 0 => (spec.scene.hide.iter().map(|pattern| &pattern.value).collect(), false),
+        None => (Vec::new(), false),
     };
-    wanted && model.nodes[node].drawn
+    let matched = model.nodes_matching(patterns);
+    model.nodes.iter().zip(matched).map(|(node, matched)| node.drawn && matched == wanted).collect()
 }

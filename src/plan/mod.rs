@@ -39,7 +39,7 @@ pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
 pub use reasons::Reasons;
-pub use regions::Region;
+pub use regions::{Ended, Region, RegionSearch};
 pub use rules::{Rule, Test};
 pub use screen::ScreenStep;
 pub use walk::{Verdict, survivors};
@@ -101,6 +101,7 @@ pub struct TextureSpace {
 impl Plan {
     /// Decides a spec over its opened scene. All that can be wrong with the two together is found here.
     pub fn new(spec: &Spec, scene: &Scene) -> Result<Self, InputError> {
+        scene.bound_comparisons(spec)?;
         let mut view = camera::place(spec, scene)?;
         let graph = PriorityGraph::new(spec)?;
         let volumes = lenses::volumes(spec, scene, &view)?;
@@ -113,6 +114,7 @@ impl Plan {
         let op::Ops { list: ops, channels, customs, custom_words, .. } = ops;
         let (contents, mut items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let mut warnings = warnings::collect(spec, scene);
+        warnings.extend(graph.idle_cycles(spec));
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene)?;

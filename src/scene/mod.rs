@@ -22,7 +22,7 @@ pub use closed::{Closure, ClosureCache};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
-pub(crate) use names::Subject;
+pub(crate) use names::{Selections, Subject};
 pub use open::Scene;
 pub use pose::Transform;
 pub use simplified::Simplified;

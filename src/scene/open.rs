@@ -84,6 +84,7 @@ impl Scene {
     /// Reads and computes what the filters of a spec look up: images, colour maps, numbers at vertices. [`Scene::open`]
     /// does; a scene made of models in memory needs it before a plan whose filters ask for such, which is refused otherwise.
     pub fn prepare_filters(&mut self, spec: &Spec) -> Result<(), InputError> {
+        self.bound_comparisons(spec)?;
         let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
         for filter in filters {
             match &filter.value {
@@ -103,6 +104,11 @@ impl Scene {
         }
         self.simplify(spec);
         Ok(())
+    }
+
+    /// Fails where a spec's patterns are too many for the names of the models.
+    pub(crate) fn bound_comparisons(&self, spec: &Spec) -> Result<(), InputError> {
+        super::names::bound_comparisons(spec, &self.models)
     }
 
     fn add_color_map(&mut self, name: &str) {
