@@ -24,7 +24,7 @@ use std::sync::Arc;
 use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::Custom;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneId};
 use crate::spec::{Backfaces, Spec, ToneMapping};
 use crate::view::View;
 
@@ -47,6 +47,8 @@ pub use walk::{Verdict, survivors};
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.
 #[derive(Debug, Clone)]
 pub struct Plan {
+    /// The scene that it was made for.
+    pub scene: SceneId,
     pub view: View,
     /// Samples a pixel, a square number.
     pub samples: u32,
@@ -119,6 +121,7 @@ impl Plan {
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene)?;
         Ok(Self {
+            scene: scene.id,
             samples: spec.image.samples,
             tone_mapping: match spec.image.tone_mapping {
                 ToneMapping::None => wgsl::TONE_NONE.0,

@@ -23,7 +23,7 @@ use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
 pub(crate) use names::{Selections, Subject};
-pub use open::Scene;
+pub use open::{Scene, SceneId};
 pub use pose::Transform;
 pub use simplified::Simplified;
 pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet, decode_table};

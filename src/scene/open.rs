@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
 use super::{MaterialRecord, Model, TextureSet, lens_meshes};
@@ -11,9 +12,22 @@ use crate::lens::LensMeshes;
 use crate::spec::{At, Filter, Quantity, Spec, suggest};
 use crate::{InputError, color_map};
 
+/// Which scene something belongs to; every [`Scene`] that is made gets another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SceneId(u64);
+
+impl Default for SceneId {
+    fn default() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
 /// The models of a spec with what they share: materials and textures in one table each.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
+    /// Tells it from other scenes, so that no plan is drawn over a scene that it was not made for. A clone is the same scene.
+    pub id: SceneId,
     /// The scene file, then the alternates in the order of the spec.
     pub models: Vec<Model>,
     /// Names of the alternates; number i is `models[i + 1]`.

@@ -248,3 +248,84 @@ fn crosses(bounds: &Aabb, ray: &Ray, from: f64, to: f64) -> bool {
     }
     from <= to
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::scene::{Material, Mesh, Model, Node, Primitive, Scene, Transform};
+    use crate::spec::Spec;
+
+    /// A square of two triangles around the origin, the eye before it.
+    fn plan(lenses: &str) -> Plan {
+        let [x, y] = [glam::Vec3::X, glam::Vec3::Y];
+        let primitive = Primitive {
+            positions: vec![-x - y, x - y, x + y, y - x],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..Primitive::default()
+        };
+        let node = Node {
+            name: "square".into(),
+            parent: None,
+            children: Vec::new(),
+            rest: Transform::IDENTITY,
+            world_from_local: glam::DAffine3::IDENTITY,
+            mesh: Some(0),
+            camera: None,
+            light: None,
+            drawn: true,
+        };
+        let model = Model {
+            nodes: vec![node],
+            meshes: vec![Mesh { name: "square".into(), primitives: vec![primitive] }],
+            materials: vec![Material::default()],
+            ..Model::default()
+        };
+        let text = format!("[scene]\nfile = \"none.glb\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n{lenses}");
+        let spec = Spec::parse(&text, "test.toml", Path::new("")).unwrap_or_else(|error| panic!("{error}"));
+        Plan::new(&spec, &Scene::new(vec![model], Vec::new())).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn spheres(count: usize, filter: &str) -> String {
+        let lens = |i: usize| {
+            let (x, r) = (0.02 * i as f64, 0.9 - 0.02 * i as f64);
+            format!("[[lens]]\nname = \"l{i}\"\nshape.sphere = {{ center = [{x}, 0, 0], radius = {r} }}\nfilters = [{filter}]\n")
+        };
+        (0..count).map(lens).collect()
+    }
+
+    /// The work of a whole search.
+    fn work(plan: &Plan) -> u64 {
+        let (mut enough, mut work) = (1u64 << 34, 0);
+        while enough > 1 << 12 {
+            enough /= 2;
+            match plan.search_regions(enough).ended {
+                None => work = enough,
+                Some(_) => break,
+            }
+        }
+        work
+    }
+
+    #[test]
+    fn movers_over_each_other_do_not_multiply_the_work() {
+        let [four, eight] = [4, 8].map(|count| plan(&spheres(count, "{ magnify = { factor = 1.1 } }")));
+        assert_eq!(eight.instances.len(), 256, "the square may be shown in so many ways");
+        let [four, eight] = [work(&four), work(&eight)];
+        assert!(eight <= 8 * four, "{four} and {eight}");
+    }
+
+    #[test]
+    fn a_search_that_ends_early_says_so_and_finds_nothing_that_is_not_there() {
+        let plan = plan(&spheres(6, "\"invert\""));
+        let whole = plan.regions();
+        assert_eq!(whole.ended, None);
+        let early = plan.search_regions(20_000);
+        let Some(Ended::Work { lines, of }) = early.ended else { panic!("it has looked everywhere") };
+        assert!(lines > 0 && lines < of, "{lines} of {of}");
+        assert!(!early.regions.is_empty() && early.regions.iter().all(|region| whole.regions.contains(region)));
+        let text = early.ended.map(|ended| ended.to_string()).unwrap_or_default();
+        assert!(text.contains(&format!("{lines} of {of} lines")), "{text}");
+    }
+}
