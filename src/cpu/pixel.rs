@@ -5,6 +5,8 @@ mod contact;
 mod moved;
 mod removed;
 
+use std::sync::atomic::Ordering;
+
 use glam::{Vec2, Vec3, Vec4};
 
 use super::block::{Block, BlockRays, Camera};
@@ -107,6 +109,16 @@ impl<'a> Tracer<'a> {
             anywhere,
             seen_by: std::iter::once(None).chain(alternates).chain([needed(simplifying), needed(moving)]).collect(),
         }
+    }
+
+    /// Counts the work of the user's own filters anew.
+    pub fn start_picture(&self) {
+        self.shader.spent.store(0, Ordering::Relaxed);
+    }
+
+    /// Loop iterations that the user's own filters have taken for the picture.
+    pub fn filter_iterations(&self) -> u64 {
+        self.shader.spent.load(Ordering::Relaxed)
     }
 
     /// Meets the rays of a block with everything. `ranks`: the lenses that may touch it.

@@ -2,6 +2,8 @@
 
 mod cap;
 
+use std::sync::atomic::AtomicU64;
+
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, g2, g3, g4, light, v2, v3, v4};
@@ -25,6 +27,8 @@ pub struct Shader<'a> {
     /// Of each item, for each of the plan's channels, where it has one.
     values: Vec<Vec<Option<VertexValues<'a>>>>,
     forward: Vec3,
+    /// Loop iterations that the user's own filters have taken for the picture.
+    pub spent: AtomicU64,
 }
 
 /// From local space to the world's axes around the eye as shown: for points, and for normals.
@@ -153,6 +157,7 @@ impl<'a> Shader<'a> {
             plan.channels.iter().map(of).collect()
         };
         Self {
+            spent: AtomicU64::new(0),
             values: plan.items.iter().map(values).collect(),
             forward: plan.view.forward.as_vec3(),
             scene,
@@ -325,10 +330,10 @@ impl<'a> Shader<'a> {
     }
 
     /// Where a filter of the user's own acts on what is shown at `position`; `None` for any other.
-    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'a>> {
+    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'_>> {
         let eye = self.plan.view.eye;
         let from_eye = || (source().transform_point3(position.as_dvec3() + eye) - eye).as_vec3();
-        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_eye() })
+        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_eye(), spent: &self.spent })
     }
 
     /// What a filter looks up; `None` where it does not act, as the surface has no such value. `source`: from the shown
