@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::printable;
 use crate::spec::Source;
 
 /// Something in a spec or a model is wrong. `Display` is a single paragraph that names the place;
@@ -21,7 +22,8 @@ pub struct InputError {
 
 impl InputError {
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), help: None, source_text: None, labels: Vec::new() }
+        let message = printable::message(&message.into()).into_owned();
+        Self { message, help: None, source_text: None, labels: Vec::new() }
     }
 
     /// An error at a place of a spec file.
@@ -30,7 +32,7 @@ impl InputError {
     }
 
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(printable::message(&help.into()).into_owned());
         self
     }
 

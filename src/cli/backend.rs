@@ -63,7 +63,7 @@ impl Backend {
                 if engine.is_some() {
                     eprintln!("note: --engine is about the GPU, and the CPU renders");
                 }
-                Ok(on_cpu(scene, plan, aovs, stages))
+                on_cpu(scene, plan, aovs, stages)
             }
             #[cfg(feature = "gpu")]
             Backend::Gpu(device) => {
@@ -91,7 +91,7 @@ impl Backend {
     pub fn maps(&self, scene: &Scene, plan: &Plan, stages: &mut Stages) -> Result<Aovs, InputError> {
         match self {
             Backend::Cpu => {
-                let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan));
+                let renderer = stages.time("bvh", || cpu::Renderer::checked(scene, plan))?;
                 let bar = super::stages::progress(plan.view.size.iter().map(|s| u64::from(*s)).product());
                 let maps = stages.time("render", || renderer.maps(&|done| bar.inc(done)));
                 bar.finish_and_clear();
@@ -108,7 +108,7 @@ impl Backend {
     /// What the ray through a pixel's centre meets.
     pub fn explain(&self, scene: &Scene, plan: &Plan, [x, y]: [u32; 2]) -> Result<PixelReport, InputError> {
         match self {
-            Backend::Cpu => Ok(cpu::Renderer::new(scene, plan).explain(x, y)),
+            Backend::Cpu => Ok(cpu::Renderer::checked(scene, plan)?.explain(x, y)),
             #[cfg(feature = "gpu")]
             Backend::Gpu(device) => {
                 let mut renderer = device.renderer(scene).map_err(no_picture)?;
@@ -120,7 +120,7 @@ impl Backend {
     /// What is visible at a pixel.
     pub fn pick(&self, scene: &Scene, plan: &Plan, [x, y]: [u32; 2]) -> Result<Option<Pick>, InputError> {
         match self {
-            Backend::Cpu => Ok(cpu::Renderer::new(scene, plan).pick(x, y)),
+            Backend::Cpu => Ok(cpu::Renderer::checked(scene, plan)?.pick(x, y)),
             #[cfg(feature = "gpu")]
             Backend::Gpu(device) => {
                 let mut renderer = device.renderer(scene).map_err(no_picture)?;
@@ -132,7 +132,7 @@ impl Backend {
     /// The layers of the rays through the pixel centres of a row.
     pub fn row_layers(&self, scene: &Scene, plan: &Plan, row: u32) -> Result<Vec<Vec<LayerStart>>, InputError> {
         match self {
-            Backend::Cpu => Ok(cpu::Renderer::new(scene, plan).row_layers(row)),
+            Backend::Cpu => Ok(cpu::Renderer::checked(scene, plan)?.row_layers(row)),
             #[cfg(feature = "gpu")]
             Backend::Gpu(device) => {
                 let window = crate::gpu::Window { min: [0, row], size: [plan.view.size[0], 1] };
@@ -149,13 +149,13 @@ fn no_picture(error: crate::gpu::Error) -> InputError {
         .help("try a smaller `--size`, or `--backend cpu`")
 }
 
-fn on_cpu(scene: &Scene, plan: &Plan, aovs: bool, stages: &mut Stages) -> Frame {
-    let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan));
+fn on_cpu(scene: &Scene, plan: &Plan, aovs: bool, stages: &mut Stages) -> Result<Frame, InputError> {
+    let renderer = stages.time("bvh", || cpu::Renderer::checked(scene, plan))?;
     let pixels = plan.view.size.iter().map(|s| u64::from(*s)).product();
     let bar = super::stages::progress(pixels);
     let frame = stages.time("render", || renderer.render(aovs, &|done| bar.inc(done)));
     bar.finish_and_clear();
-    frame
+    Ok(frame)
 }
 
 #[cfg(feature = "gpu")]

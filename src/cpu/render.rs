@@ -5,8 +5,10 @@ use rayon::prelude::*;
 
 use super::block::Block;
 use super::convert::{g3, v3};
+use super::memory::check_memory;
 use super::pixel::{Scratch, Tracer};
 use super::screen::{self, Plane};
+use crate::InputError;
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, RegionTable};
 use crate::lens::{LayerStart, PixelRect, RayLayers};
@@ -53,6 +55,12 @@ struct Center {
 impl<'a> Renderer<'a> {
     pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
         Self { plan, tracer: Tracer::new(scene, plan) }
+    }
+
+    /// The same within the memory limit that the scene was opened with.
+    pub fn checked(scene: &'a Scene, plan: &'a Plan) -> Result<Self, InputError> {
+        check_memory(scene, plan)?;
+        Ok(Self::new(scene, plan))
     }
 
     /// The picture; with `aovs`, what lies at the centre of each pixel, too. `done` is called with the number of

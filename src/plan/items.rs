@@ -306,6 +306,7 @@ fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Re
 fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {
     let wanted = match &content.nodes {
         Some(patterns) => patterns.iter().any(|p| model.node_matches(node, p)),
+        None if model.nodes[node].hidden => false,
         None => index != 0 || !spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value)),
     };
     wanted && model.nodes[node].drawn

@@ -5,7 +5,13 @@ use crate::scene::{Model, Scene};
 use crate::spec::{At, Filter, Matches, Pattern, Spec};
 
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
-    let mut warnings: Vec<String> = scene.models.iter().flat_map(|m| m.warnings.iter().cloned()).collect();
+    let mut warnings: Vec<String> = Vec::new();
+    // A file may be scene, alternate and lens at once.
+    for warning in scene.models.iter().flat_map(Model::named_warnings).chain(scene.lens_warnings.iter().cloned()) {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    }
     if let Some(time) = spec.scene.time.as_ref().filter(|_| !moves(scene)) {
         let line = spec.source.line(time.span.start);
         warnings

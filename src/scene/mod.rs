@@ -4,6 +4,7 @@
 
 mod animation;
 mod bounds;
+mod budget;
 mod closed;
 mod lens_meshes;
 mod load;
@@ -18,6 +19,7 @@ mod vertex_values;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
+pub use budget::{Budget, OpenOptions, size_text};
 pub use closed::{Closure, ClosureCache};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};

@@ -44,6 +44,7 @@ fn model() -> Model {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         });
         let primitive = Primitive {
             positions: vec![corner(-8.0, -8.0), corner(8.0, -8.1), corner(8.0, 8.0), corner(-8.0, 8.1)],
