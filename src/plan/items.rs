@@ -13,8 +13,27 @@ use crate::spec::{At, By, Cap, Filter, Pattern, ShowWhat, Spec, lod};
 pub struct Content {
     /// Into [`Scene::models`].
     pub model: usize,
-    /// Patterns of the nodes it has; `None`: what the model draws.
-    pub nodes: Option<Vec<Pattern>>,
+    /// What of the model it has; `None`: all that the model draws.
+    pub only: Option<Selection>,
+}
+
+/// Some of a model, by names: what matches one of the patterns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selection {
+    pub nodes: Vec<Pattern>,
+    pub materials: Vec<Pattern>,
+}
+
+impl Selection {
+    fn new(nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> Self {
+        let patterns = |list: &[At<Pattern>]| list.iter().map(|p| p.value.clone()).collect();
+        Self { nodes: patterns(nodes), materials: patterns(materials) }
+    }
+
+    fn holds(&self, subject: &Subject) -> bool {
+        self.nodes.iter().any(|p| subject.model.node_matches(subject.node, p))
+            || self.materials.iter().any(|p| p.matches(subject.material))
+    }
 }
 
 /// One primitive of one node of one content, or a simplified version of it.
@@ -109,7 +128,7 @@ pub(super) fn collect(
     for (content_index, content) in contents.iter().enumerate() {
         let model = &scene.models[content.model];
         for node in 0..model.nodes.len() {
-            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_part(spec, model, content_index, content, node))
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_drawn(spec, model, content_index, node))
             else {
                 continue;
             };
@@ -144,6 +163,9 @@ pub(super) fn collect(
                     is_cut: false,
                 };
                 let subject = item.subject(scene);
+                if content.only.as_ref().is_some_and(|only| !only.holds(&subject)) {
+                    continue;
+                }
                 for (rank, lens) in lenses.iter().enumerate() {
                     let lens_spec = &spec.lenses[order[rank]];
                     if subject.is_in_scope_of(lens_spec) {
@@ -258,55 +280,64 @@ fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, c
 
 fn content(what: &ShowWhat, scene: &Scene) -> Content {
     match what {
-        ShowWhat::Alternate(name) => Content {
-            model: 1 + scene.alternates.iter().position(|a| *a == name.value).unwrap_or_default(),
-            nodes: None,
+        ShowWhat::Alternate { name, only } => Content {
+            model: model_of(name, scene),
+            only: (!only.is_empty()).then(|| Selection::new(&only.nodes, &only.materials)),
         },
-        ShowWhat::Nodes(patterns) => {
-            Content { model: 0, nodes: Some(patterns.iter().map(|p| p.value.clone()).collect()) }
-        }
+        ShowWhat::Nodes(patterns) => Content { model: 0, only: Some(Selection::new(patterns, &[])) },
     }
+}
+
+/// Into [`Scene::models`].
+fn model_of(alternate: &At<String>, scene: &Scene) -> usize {
+    1 + scene.alternates.iter().position(|known| *known == alternate.value).unwrap_or_default()
 }
 
 /// The scene, then what the enabled lenses show: alternates in their order, then node lists as they come.
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
-    let mut contents = vec![Content { model: 0, nodes: None }];
+    let mut contents = vec![Content { model: 0, only: None }];
     let mut shown: Vec<Content> = Vec::new();
     let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
     let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
     for (enabled, filter) in of_lenses.chain(of_rules) {
         let Filter::Show(what) = &filter.value else { continue };
-        if let ShowWhat::Nodes(patterns) = what {
-            check_shown_nodes(spec, &scene.models[0], patterns)?;
-        }
+        check_shown(spec, scene, what)?;
         if enabled {
             shown.push(content(what, scene));
         }
     }
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
     for content in shown {
-        if !contents.contains(&content) || (content.nodes.is_none() && content.model == 0) {
+        if !contents.contains(&content) {
             contents.push(content);
         }
     }
     Ok(contents)
 }
 
-fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Result<(), InputError> {
-    for pattern in patterns {
-        if !(0..model.nodes.len()).any(|n| model.node_matches(n, &pattern.value)) {
-            let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
-            return Err(InputError::at(&spec.source, pattern.span.clone(), message)
-                .help(model.nearest_node_name(&pattern.value.0)));
+/// What `show` names must be there.
+fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat) -> Result<(), InputError> {
+    let (model, nodes, materials) = match what {
+        ShowWhat::Alternate { name, only } => {
+            (&scene.models[model_of(name, scene)], only.nodes.as_slice(), only.materials.as_slice())
         }
+        ShowWhat::Nodes(nodes) => (&scene.models[0], nodes.as_slice(), &[][..]),
+    };
+    let refuse = |what: &str, pattern: &At<Pattern>, help: String| {
+        let message = format!("`show` finds no {what} of `{}` that matches `{}`", model.name, pattern.value);
+        Err(InputError::at(&spec.source, pattern.span.clone(), message).help(help))
+    };
+    if let Some(pattern) = nodes.iter().find(|p| !model.has_node(&p.value)) {
+        return refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
+    }
+    if let Some(pattern) = materials.iter().find(|p| !model.has_material(&p.value)) {
+        return refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
     }
     Ok(())
 }
 
-fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {
-    let wanted = match &content.nodes {
-        Some(patterns) => patterns.iter().any(|p| model.node_matches(node, p)),
-        None => index != 0 || !spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value)),
-    };
-    wanted && model.nodes[node].drawn
+/// Whether a content may have a node: its model draws it, and the spec does not hide it.
+fn is_drawn(spec: &Spec, model: &Model, content: usize, node: usize) -> bool {
+    let hidden = || spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value));
+    model.nodes[node].drawn && (content != 0 || !hidden())
 }

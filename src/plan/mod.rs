@@ -33,7 +33,7 @@ pub use account::{Account, Undecided};
 pub use caps::{Body, Closing, Member};
 pub use decide::{Reason, commute};
 pub use instances::{Instance, Step};
-pub use items::{Content, Item};
+pub use items::{Content, Item, Selection};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};

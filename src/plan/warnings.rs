@@ -1,7 +1,7 @@
 //! Patterns that match nothing, and what the models left out.
 
 use super::{Item, Lens, Rule};
-use crate::scene::{Model, Scene};
+use crate::scene::Scene;
 use crate::spec::{At, Filter, Matches, Pattern, Spec};
 
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
@@ -17,9 +17,9 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
             warnings.push(format!("{}:{line}: {place} matches nothing: `{}`", spec.source.name, pattern.value));
         }
     };
-    let node = |p: &Pattern| scene.models.iter().any(|m| has_node(m, p));
-    let material = |p: &Pattern| scene.models.iter().any(|m| m.materials.iter().any(|m| p.matches(&m.name)));
-    check("`hide`".into(), &spec.scene.hide, &|p| has_node(&scene.models[0], p));
+    let node = |p: &Pattern| scene.models.iter().any(|m| m.has_node(p));
+    let material = |p: &Pattern| scene.models.iter().any(|m| m.has_material(p));
+    check("`hide`".into(), &spec.scene.hide, &|p| scene.models[0].has_node(p));
     for lens in &spec.lenses {
         let name = &lens.name.value;
         for (key, Matches { nodes, materials }) in [("only", &lens.only), ("except", &lens.except)] {
@@ -73,8 +73,4 @@ pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Ite
 
 fn moves(scene: &Scene) -> bool {
     scene.models.iter().flat_map(|model| &model.animations).any(|animation| !animation.channels.is_empty())
-}
-
-fn has_node(model: &Model, pattern: &Pattern) -> bool {
-    model.nodes.iter().any(|n| pattern.matches(&n.name))
 }

@@ -43,11 +43,22 @@ impl Model {
 
     /// What to write instead of a node name that is not there.
     pub fn nearest_node_name(&self, name: &str) -> String {
-        let names = self.nodes.iter().map(|n| n.name.as_str()).filter(|n| !n.is_empty());
-        match names.map(|n| (strsim::jaro_winkler(n, name), n)).max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((score, nearest)) if score > 0.8 => format!("did you mean `{nearest}`?"),
-            _ => "`lenspeel info` lists the nodes of a model".into(),
-        }
+        let nearest = nearest(name, self.nodes.iter().map(|n| n.name.as_str()));
+        nearest.unwrap_or_else(|| "`lenspeel info` lists the nodes of a model".into())
+    }
+
+    /// What to write instead of a material name that is not there.
+    pub fn nearest_material_name(&self, name: &str) -> String {
+        let nearest = nearest(name, self.materials.iter().map(|m| m.name.as_str()));
+        nearest.unwrap_or_else(|| "`lenspeel info` lists the materials of a model".into())
+    }
+
+    pub fn has_node(&self, pattern: &Pattern) -> bool {
+        self.nodes.iter().any(|n| pattern.matches(&n.name))
+    }
+
+    pub fn has_material(&self, pattern: &Pattern) -> bool {
+        self.materials.iter().any(|m| pattern.matches(&m.name))
     }
 
     /// A node's name, or `node N` where the file gives none.
@@ -64,6 +75,13 @@ impl Model {
     pub fn node_matches(&self, node: usize, pattern: &Pattern) -> bool {
         std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))
     }
+}
+
+/// A question after the name that is most like one, if any is.
+fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+    let likeness = names.filter(|n| !n.is_empty()).map(|n| (strsim::jaro_winkler(n, name), n));
+    let (score, nearest) = likeness.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (score > 0.8).then(|| format!("did you mean `{nearest}`?"))
 }
 
 fn or_number(name: &str, kind: &str, number: usize) -> String {

@@ -2,10 +2,12 @@
 
 mod filters;
 mod kinds;
+mod listing;
 mod lens;
 mod shapes;
 mod tables;
 
+pub use listing::{Row, keys_markdown, markdown, shape_rows};
 use serde_json::{Value, json};
 
 /// The schema of a whole spec file.

@@ -12,10 +12,12 @@ pub fn read(item: &Item) -> Result<LensSpec, InputError> {
     let table = Table::open(item, "[[lens]]", keys::LENS)?;
     let name = name(&table.need("name")?)?;
     let table = table.called(format!("lens `{}`", name.value));
+    let shape = shape::read(&table.need("shape")?)?;
+    let glass_unless_given = (!shape.value.is_half_space()).then(Glass::default);
     Ok(LensSpec {
         name,
         enabled: table.read("enabled", Item::boolean)?.unwrap_or(true),
-        shape: shape::read(&table.need("shape")?)?,
+        shape,
         attach: table.read("attach", attach)?.unwrap_or(At::new(Attach::Scene, table.span.clone())),
         translation: table.read("translation", Item::vector)?.unwrap_or_default(),
         rotation: table.read("rotation", Item::rotation)?.unwrap_or_default(),
@@ -30,7 +32,7 @@ pub fn read(item: &Item) -> Result<LensSpec, InputError> {
         only: table.read("only", matches)?.unwrap_or_default(),
         except: table.read("except", matches)?.unwrap_or_default(),
         soft: table.read("soft", |item| item.number(NumberRange::NOT_NEGATIVE))?.unwrap_or(0.0),
-        glass: table.read("glass", glass)?.unwrap_or(Some(Glass::default())),
+        glass: table.read("glass", glass)?.unwrap_or(glass_unless_given),
     })
 }
 

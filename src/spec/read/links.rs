@@ -106,8 +106,8 @@ impl Links<'_> {
 
     fn filters(&self, filters: &[At<Filter>]) -> Result<(), InputError> {
         for filter in filters {
-            if let Filter::Show(ShowWhat::Alternate(alternate)) = &filter.value {
-                self.alternate(alternate)?;
+            if let Filter::Show(ShowWhat::Alternate { name, .. }) = &filter.value {
+                self.alternate(name)?;
             }
         }
         Ok(())
