@@ -58,7 +58,7 @@ pub fn shape_rows(row: &ShapeRow) -> Vec<Row> {
     rows(&at(&schema(), &format!("/$defs/shape/properties/{}", row.name)), row.keys)
 }
 
-pub fn markdown(rows: &[Row]) -> String {
+fn markdown(rows: &[Row]) -> String {
     let mut text = "| key | value | default | |\n|---|---|---|---|\n".to_owned();
     for Row { key, kind, default, help } in rows {
         text += &format!("| `{key}` | {} | {} | {} |\n", cell(kind), cell(default), cell(help));

@@ -7,7 +7,7 @@ mod lens;
 mod shapes;
 mod tables;
 
-pub use listing::{Row, keys_markdown, markdown, shape_rows};
+pub use listing::{Row, keys_markdown, shape_rows};
 use serde_json::{Value, json};
 
 /// The schema of a whole spec file.
