@@ -1,4 +1,4 @@
-//! The typed mirror of a lens-spec file (see `lens-specs/README.md`). Lengths are scene units, angles degrees.
+//! The typed mirror of a lens-spec file (see `SPEC-FORMAT`). Lengths are scene units, angles degrees.
 //!
 //! A value of these types is syntactically right: types, ranges and names of keys have been checked.
 //! What needs the models (node names, bounds) is checked when the scene is opened.
