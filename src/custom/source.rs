@@ -21,7 +21,7 @@ impl Text {
         // Some editors put a byte order mark in front.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         Self {
-            user: Source { name: name.to_owned(), text: source.into() },
+            user: Source::new(name, source),
             whole: format!("{}{source}", contract::WGSL),
         }
     }

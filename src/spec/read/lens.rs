@@ -6,6 +6,7 @@ use super::item::Item;
 use super::table::Table;
 use super::{filter, keys, shape};
 use crate::InputError;
+use crate::limits::MAX_NAME;
 use crate::spec::{At, Attach, By, Glass, LensSpec, Matches, NumberRange, OverlapMode, Pattern};
 
 pub fn read(item: &Item) -> Result<LensSpec, InputError> {
@@ -43,6 +44,10 @@ pub fn is_name_char(c: char) -> bool {
 
 fn name(item: &Item) -> Result<At<String>, InputError> {
     let text = item.text()?;
+    if text.len() > MAX_NAME {
+        let message = format!("a lens name has at most {MAX_NAME} characters, and this one has {}", text.chars().count());
+        return Err(item.error(message).help("give it a shorter name"));
+    }
     match text.chars().find(|c| !is_name_char(*c)) {
         None => Ok(item.at(text.to_owned())),
         Some(c) => Err(item
