@@ -14,4 +14,4 @@ mod shade;
 mod texture;
 
 pub use memory::check_memory;
-pub use render::Renderer;
+pub use render::{Error, Renderer};

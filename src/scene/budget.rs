@@ -25,6 +25,10 @@ impl Default for OpenOptions {
     }
 }
 
+/// What to do about a refusal.
+pub(crate) const TO_TAKE_LESS: &str =
+    "simplify or split it, or allow more with `--memory-limit SIZE` (in the library: `OpenOptions`)";
+
 /// Bytes taken so far, and the most there may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Budget {
@@ -70,12 +74,12 @@ impl Budget {
         };
         let limit = size_text(self.limit);
         InputError::new(format!("{what}: it takes about {} of memory{beside}, the limit is {limit}", size_text(bytes)))
-            .help("simplify or split it, or allow more with `--memory-limit SIZE` (in the library: `OpenOptions`)")
+            .help(TO_TAKE_LESS)
     }
 }
 
 /// A number of bytes as people read it.
-pub fn size_text(bytes: u64) -> String {
+fn size_text(bytes: u64) -> String {
     ByteSize::b(bytes).display().iec().to_string()
 }
 

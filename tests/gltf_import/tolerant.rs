@@ -191,7 +191,7 @@ fn copies_that_the_cpu_could_not_hold_are_refused_with_numbers() {
     let plan = Plan::new(&spec, &scene).expect("a plan");
     assert!(cpu::check_memory(&scene, &plan).is_ok());
     scene.budget = Budget::new(500_000);
-    let error = cpu::Renderer::checked(&scene, &plan).err().expect("2,000 triangles take more").to_string();
+    let error = cpu::Renderer::new(&scene, &plan).err().expect("2,000 triangles take more").to_string();
     assert!(error.contains("of 2000 triangles (2 in the files, nodes copy them)"), "{error}");
     assert!(error.contains("it takes about 585.9 KiB of memory, the limit is 488.3 KiB"), "{error}");
 }
