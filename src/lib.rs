@@ -16,6 +16,7 @@ pub mod gpu;
 pub mod lens;
 pub mod output;
 pub mod pick;
+pub mod pieces;
 pub mod pixel;
 pub mod plan;
 pub mod scene;

@@ -18,7 +18,7 @@ mod vertex_values;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
-pub use closed::{Closure, ClosureCache};
+pub use closed::{Closure, ClosureCache, Enclosing};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;

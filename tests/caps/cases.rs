@@ -4,13 +4,14 @@ use std::f64::consts::PI;
 
 use glam::Vec3;
 use lenspeel::pixel::cap_maker;
+use lenspeel::scene::Primitive;
 
-use crate::solids::{Part, ball, cuboid, halves, planned, second, turned, with};
+use crate::solids::{Part, ball, cuboid, halves, planned, second, sheet, turned, with, with_seam};
 use crate::{Draw, cap_pixels, has_area, maps};
 
 pub type Check = fn(Draw) -> Result<(), String>;
 
-pub const ALL: [(&str, Check); 16] = [
+pub const ALL: [(&str, Check); 21] = [
     ("a-ball-cut-by-a-plane", plane),
     ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
     ("a-ball-cut-by-a-sphere", sphere),
@@ -27,6 +28,11 @@ pub const ALL: [(&str, Check); 16] = [
     ("the-inner-surface-of-a-node", inner_surface),
     ("an-inner-surface-that-is-not-cut", inner_surface_not_cut),
     ("surfaces-that-are-closed-together", closed_together),
+    ("a-seam-as-good-as-sines-are", seam),
+    ("a-sheet-beside-a-solid", sheet_beside),
+    ("triangles-turned-round", some_turned),
+    ("a-hole-far-from-the-cut", hole_far_off),
+    ("solids-of-one-mesh-that-overlap", overlapping),
 ];
 
 /// Pixels of a picture's side.
@@ -230,4 +236,60 @@ fn closed_together(draw: Draw) -> Result<(), String> {
     let parts = vec![("parts", vec![beside, top, rest])];
     let frame = draw(&planned(parts, SIDE, ABOVE, &above(0.3, CAP_SECOND)))?;
     has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// The ends of the meridians that close it differ in the last digits.
+fn seam(draw: Draw) -> Result<(), String> {
+    let frame = draw(&planned(vec![("ball", vec![with_seam(ball(1.0, 192))])], SIDE, ABOVE, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// A sheet goes through the solid, another stands on it, all of one mesh: neither has a cap.
+fn sheet_beside(draw: Draw) -> Result<(), String> {
+    let through = sheet([[-1.4, 0.31, -1.0], [1.4, 0.31, -1.0], [1.4, 0.29, 1.0], [-1.4, 0.29, 1.0]]);
+    let bent = with(
+        sheet([[0.9, -1.2, -1.0], [1.3, -1.2, -1.0], [1.3, -1.2, 1.0], [0.9, -1.2, 1.0]]),
+        sheet([[1.3, -1.2, -1.0], [1.3, -0.9, -1.0], [1.3, -0.9, 1.0], [1.3, -1.2, 1.0]]),
+    );
+    let solid = cuboid(Vec3::ZERO, Vec3::new(0.7, 0.8, 0.6));
+    let parts = vec![("both", vec![with(solid, bent), through])];
+    let frame = draw(&planned(parts, SIDE, &format!("{ABOVE}\nup = [0.31, 1, 0]"), &above(0.2, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(1.4 * 1.6))
+}
+
+fn some_turned(draw: Draw) -> Result<(), String> {
+    let mut ball = ball(1.0, 192);
+    ball.triangles.iter_mut().step_by(11).for_each(|triangle| triangle.swap(0, 1));
+    let frame = draw(&planned(vec![("ball", vec![ball])], SIDE, ABOVE, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// Rays leave through a hole as wide as a seventh of the ball, and through the bottom of a box that has none.
+fn hole_far_off(draw: Draw) -> Result<(), String> {
+    let mut torn = ball(1.0, 192);
+    let positions = torn.positions.clone();
+    torn.triangles.retain(|triangle| triangle.iter().any(|corner| positions[*corner as usize].z > -0.98));
+    let frame = draw(&planned(vec![("ball", vec![torn])], SIDE, ABOVE, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))?;
+    let mut without_bottom = cuboid(Vec3::ZERO, Vec3::splat(0.8));
+    let positions = without_bottom.positions.clone();
+    without_bottom.triangles.retain(|triangle| triangle.iter().any(|corner| positions[*corner as usize].z > 0.0));
+    let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+    let frame = draw(&planned(vec![("box", vec![without_bottom])], SIDE, &camera, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(1.6 * 1.6))
+}
+
+/// Whichever way each faces.
+fn overlapping(draw: Draw) -> Result<(), String> {
+    let bars = |second| with(cuboid(Vec3::ZERO, Vec3::new(1.2, 0.5, 0.6)), if second { turned(bar()) } else { bar() });
+    for second in [false, true] {
+        let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+        let frame = draw(&planned(vec![("cross", vec![bars(second)])], SIDE, &camera, &above(0.2, CAP)))?;
+        has_area(maps(&frame)?, 0, pixels(2.4 + 2.16 - 0.9))?;
+    }
+    Ok(())
+}
+
+fn bar() -> Primitive {
+    cuboid(Vec3::new(0.0, 0.0, 0.1), Vec3::new(0.45, 1.2, 0.55))
 }

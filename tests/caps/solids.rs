@@ -73,6 +73,21 @@ pub fn cuboid(center: Vec3, half: Vec3) -> Primitive {
     cuboid
 }
 
+/// A flat sheet of four corners.
+pub fn sheet(corners: [[f32; 3]; 4]) -> Primitive {
+    let [a, b, c, d] = corners.map(Vec3::from_array);
+    let mut sheet = Primitive::default();
+    [[a, b, c], [a, c, d]].iter().for_each(|triangle| push(&mut sheet, triangle));
+    sheet
+}
+
+/// The same, with corners of each triangle that differ in their last digits from its neighbours'.
+pub fn with_seam(mut primitive: Primitive) -> Primitive {
+    let shift = |(i, p): (usize, &mut Vec3)| *p += Vec3::splat((i % 5) as f32 * 1e-7);
+    primitive.positions.iter_mut().enumerate().for_each(shift);
+    primitive
+}
+
 /// Turned inside out: the wall of a hole.
 pub fn turned(mut primitive: Primitive) -> Primitive {
     primitive.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
