@@ -2,19 +2,22 @@
 
 use std::collections::BTreeMap;
 
+use glam::DAffine3;
+
 use super::Window;
 use super::draws::{Culling, Draw};
-use super::records::NONE;
+use super::records::{NONE, rows};
 use super::upload::SceneData;
 use crate::lens::PixelRect;
 use crate::pieces::Role;
-use crate::plan::{Body, Item, Member, Plan};
+use crate::plan::{Body, Item, Member, OwnSurface, Plan};
 use crate::scene::{Enclosing, Scene};
 
 /// What shaders know of an instance that may be cut; [`NONE`]: it is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CutWords {
-    /// Where the words of its body are: the number of members, then for each its instance.
+    /// Where the words of its body are: the number of members, then for each its instance, then where the body's surface
+    /// is for caps that show its own colours (see [`push_own`]), or [`NONE`].
     pub body: u32,
     /// Where those are of what closes it: the number of those who do, then for each its rank, a `CAP_...` constant, and the
     /// colour.
@@ -32,14 +35,17 @@ impl CutWords {
 }
 
 /// Appends the words of all bodies and caps; where those of each instance are.
-pub fn push_cuts(scene: &Scene, plan: &Plan, words: &mut Vec<u32>) -> Vec<CutWords> {
+pub fn push_cuts(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: &mut Vec<u32>) -> Vec<CutWords> {
     let mut cuts = vec![CutWords::NONE; plan.instances.len()];
     // Of each version of each primitive once.
     let mut known: BTreeMap<(usize, usize, usize, u32), [u32; 2]> = BTreeMap::new();
-    for Body { members } in &plan.bodies {
+    for whole in &plan.bodies {
+        let own = push_own(scene, plan, whole, uploaded, words);
+        let Body { members } = whole;
         let body = words.len() as u32;
         words.push(members.len() as u32);
         words.extend(members.iter().map(|member| member.instance as u32));
+        words.push(own);
         for Member { instance, group } in members {
             let item = &plan.items[plan.instances[*instance].item];
             let place = (item.model, item.mesh, item.primitive, item.ratio.to_bits());
@@ -49,6 +55,26 @@ pub fn push_cuts(scene: &Scene, plan: &Plan, words: &mut Vec<u32>) -> Vec<CutWor
         }
     }
     cuts
+}
+
+/// Appends the surface on which caps find their nearest points: the rows of the map into its cube from the space around
+/// the eye, the number of its nodes, these, and of each triangle its corners, its instance and its place among the drawn.
+fn push_own(scene: &Scene, plan: &Plan, body: &Body, uploaded: &SceneData, words: &mut Vec<u32>) -> u32 {
+    let Some(own) = OwnSurface::new(scene, plan, body) else { return NONE };
+    let at = words.len() as u32;
+    let from_eye = own.cube_from_world * DAffine3::from_translation(plan.view.eye);
+    words.extend(rows(&from_eye).as_flattened().iter().map(|x| x.to_bits()));
+    words.push(own.tree.nodes.len() as u32);
+    words.extend_from_slice(bytemuck::cast_slice(&own.tree.nodes));
+    let item = |member: &Member| &plan.items[plan.instances[member.instance].item];
+    let places: Vec<Vec<u32>> = body.members.iter().map(|member| uploaded.drawn_places(item(member))).collect();
+    for (number, face) in (0u32..).zip(&own.faces) {
+        let corners = own.tree.corners(number);
+        words.extend(corners.iter().flat_map(|p| p.as_vec3().to_array()).map(f32::to_bits));
+        let member = face.member as usize;
+        words.extend([body.members[member].instance as u32, places[member][face.triangle as usize]]);
+    }
+    at
 }
 
 /// Appends what an item's triangles and lids enclose; where.

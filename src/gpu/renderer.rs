@@ -183,7 +183,7 @@ impl Renderer {
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
         let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
-        let cuts = cut_data::push_cuts(scene, plan, &mut lenses.parts.words);
+        let cuts = cut_data::push_cuts(scene, plan, &self.scene, &mut lenses.parts.words);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
+use lenspeel::frame::Frame;
 use lenspeel::pixel::cap_maker;
 use lenspeel::scene::Primitive;
 
@@ -11,7 +12,7 @@ use crate::{Draw, cap_pixels, has_area, maps};
 
 pub type Check = fn(Draw) -> Result<(), String>;
 
-pub const ALL: [(&str, Check); 21] = [
+pub const ALL: [(&str, Check); 24] = [
     ("a-ball-cut-by-a-plane", plane),
     ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
     ("a-ball-cut-by-a-sphere", sphere),
@@ -33,6 +34,9 @@ pub const ALL: [(&str, Check); 21] = [
     ("triangles-turned-round", some_turned),
     ("a-hole-far-from-the-cut", hole_far_off),
     ("solids-of-one-mesh-that-overlap", overlapping),
+    ("lenses-below-the-eraser-leave-its-cap", lower_lens),
+    ("own-colours-of-the-nearest-surface", own_colors),
+    ("edges-between-caps-of-nodes", edges_between),
 ];
 
 /// Pixels of a picture's side.
@@ -292,4 +296,79 @@ fn overlapping(draw: Draw) -> Result<(), String> {
 
 fn bar() -> Primitive {
     cuboid(Vec3::new(0.0, 0.0, 0.1), Vec3::new(0.45, 1.2, 0.55))
+}
+
+/// What makes the rest invisible from the cut on, below the eraser, leaves the cap alone; above it does not.
+fn lower_lens(draw: Draw) -> Result<(), String> {
+    let clear = lens("clear", "box = { min = [-3, -3, -3], max = [3, 3, 0.3] }", "{ opacity = { value = 0 } }");
+    let [below, above] = [clear.clone() + &above(0.3, CAP), above(0.3, CAP) + &clear].map(|lenses| {
+        let frame = draw(&planned(one_ball(), SIDE, ABOVE, &lenses))?;
+        Ok::<_, String>((has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09))), cap_pixels(maps(&frame)?, 0)))
+    });
+    below?.0?;
+    if above?.1 == 0 { Ok(()) } else { Err("a lens above the eraser must act on its cap".into()) }
+}
+
+/// The colour of a picture at a place seen from above.
+fn color_at(frame: &Frame, x: f64, y: f64) -> [u8; 4] {
+    let pixel = |along: f64| ((along / HEIGHT + 0.5) * f64::from(SIDE)) as usize;
+    frame.pixels[pixel(-y) * SIDE as usize + pixel(x)]
+}
+
+/// A lens over all that shows base colours as they are.
+fn unlit() -> String {
+    lens("unlit", "box = { min = [-3, -3, -3], max = [3, 3, 3] }", "\"unlit\"")
+}
+
+/// A box that is red on its left and blue on its right, and beside it one of two materials.
+fn own_colors(draw: Draw) -> Result<(), String> {
+    let mut colored = cuboid(Vec3::new(-0.5, 0.0, 0.0), Vec3::new(0.8, 1.0, 0.9));
+    let color = |p: &Vec3| if p.x < -0.5 { Vec4::new(1.0, 0.0, 0.0, 1.0) } else { Vec4::new(0.0, 0.0, 1.0, 1.0) };
+    colored.colors = Some(colored.positions.iter().map(color).collect());
+    let whole = cuboid(Vec3::new(0.9, 0.0, 0.0), Vec3::new(0.4, 1.0, 0.9));
+    let positions = whole.positions.clone();
+    let [mut left, mut right] = [whole.clone(), second(whole)];
+    let is_left = |triangle: &[u32; 3]| triangle.iter().all(|corner| positions[*corner as usize].x < 0.6);
+    left.triangles.retain(is_left);
+    right.triangles.retain(|triangle| !is_left(triangle));
+    let parts = vec![("colored", vec![colored]), ("two", vec![left, right])];
+    let own = "{ erase = { cap = \"own\" } }";
+    let mut opened = planned(parts, SIDE, ABOVE, &(above(0.2, own) + &unlit()));
+    opened.scene.materials[1].base_color = [0.0, 1.0, 0.0, 1.0];
+    let frame = draw(&opened)?;
+    for (x, y, expected) in [
+        (-1.2, 0.1, [255, 0, 0]),
+        (0.2, -0.1, [0, 0, 255]),
+        (-0.5, 0.9, [188, 0, 188]),
+        (0.6, 0.1, [255, 255, 255]),
+        (1.2, 0.1, [0, 255, 0]),
+    ] {
+        let found = color_at(&frame, x, y);
+        if (0..3).any(|i| found[i].abs_diff(expected[i]) > 2) {
+            return Err(format!("at ({x}, {y}) the cap is {found:?}, not {expected:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// Parts that touch, cut by one plane: a line between them, and none within one.
+fn edges_between(draw: Draw) -> Result<(), String> {
+    let part = |x: f32| cuboid(Vec3::new(x, 0.0, 0.0), Vec3::new(0.5, 1.0, 0.9));
+    let edges = lens(
+        "lines",
+        "box = { min = [-3, -3, -3], max = [3, 3, 3] }",
+        "\"unlit\", { edges = { color = \"black\", width = 3 } }",
+    );
+    let cut = above(0.2, "{ erase = { cap = \"white\" } }");
+    for (parts, is_line) in [
+        (vec![("left", vec![part(-0.5)]), ("right", vec![part(0.5)])], true),
+        (vec![("both", vec![with(part(-0.5), part(0.5))])], false),
+    ] {
+        let frame = draw(&planned(parts, SIDE, ABOVE, &(cut.clone() + &edges)))?;
+        let color = color_at(&frame, 0.0, 0.2);
+        if (color[0] < 60) != is_line || color_at(&frame, 0.3, 0.2)[0] < 250 {
+            return Err(format!("{color:?} at the border, where a line is {is_line}"));
+        }
+    }
+    Ok(())
 }

@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::line::LineCrossing;
-use super::nearest::nearest_on_triangle;
 use super::tree::TriangleTree;
 use crate::lens::{Crossing, Plane, Span};
 use crate::pieces::{Around, Role};
@@ -85,17 +84,7 @@ impl MeshSolid {
 
     /// The point of the surface nearest to `p`.
     pub fn nearest(&self, p: DVec3) -> DVec3 {
-        let best = std::cell::Cell::new((f64::INFINITY, p));
-        self.tree.visit(
-            |node| node.distance_squared(p) < best.get().0,
-            |_, corners| {
-                let q = nearest_on_triangle(p, corners);
-                if q.distance_squared(p) < best.get().0 {
-                    best.set((q.distance_squared(p), q));
-                }
-            },
-        );
-        best.get().1
+        self.tree.nearest(p).map_or(p, |(q, _)| q)
     }
 
     /// The planes of its triangles, if it is convex; `None` in place of one with hardly an area.

@@ -7,6 +7,7 @@ use obvhs::BvhBuildParams;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 
 use super::line::{LineCrossing, ShearedLine};
+use super::nearest::nearest_on_triangle;
 
 /// Triangles in the cube from -1 to 1, in the order of the leaves of a hierarchy.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,6 +91,21 @@ impl TriangleTree {
         }
     }
 
+    /// The point of the triangles nearest to `p`, and its triangle.
+    pub fn nearest(&self, p: DVec3) -> Option<(DVec3, u32)> {
+        let best = std::cell::Cell::new((f64::INFINITY, None));
+        self.visit(
+            |node| node.distance_squared(p) < best.get().0,
+            |face, corners| {
+                let q = nearest_on_triangle(p, corners);
+                if q.distance_squared(p) < best.get().0 {
+                    best.set((q.distance_squared(p), Some((q, face))));
+                }
+            },
+        );
+        best.get().1
+    }
+
     pub fn corners(&self, face: u32) -> [DVec3; 3] {
         self.triangles[face as usize].map(|i| self.vertices[i as usize])
     }
@@ -139,7 +155,7 @@ impl MeshNode {
     }
 
     /// From a point to the box.
-    pub fn distance_squared(&self, p: DVec3) -> f64 {
+    fn distance_squared(&self, p: DVec3) -> f64 {
         let (min, max) = self.ends();
         p.distance_squared(p.clamp(min, max))
     }
