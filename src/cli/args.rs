@@ -53,8 +53,20 @@ pub enum Command {
         #[arg(long, conflicts_with = "name")]
         markdown: bool,
     },
+    /// List the shapes of lenses with their keys
+    Shapes {
+        /// Only this one
+        name: Option<String>,
+        /// A table of all, in Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
     /// Print a JSON Schema of lens-spec files, for editors
-    Schema,
+    Schema {
+        /// The keys as tables in Markdown instead
+        #[arg(long)]
+        markdown: bool,
+    },
 }
 
 #[derive(Debug, Args)]

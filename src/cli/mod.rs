@@ -5,6 +5,7 @@ mod backend;
 #[cfg(feature = "gpu")]
 mod bench;
 mod check;
+mod excerpt;
 mod explain;
 mod filters;
 mod info;
@@ -12,8 +13,10 @@ mod init;
 mod render;
 mod report;
 mod schema;
+mod shapes;
 mod stages;
 mod targets;
+mod words;
 mod wrap;
 
 use std::fmt::{self, Write as _};
@@ -28,11 +31,12 @@ use crate::scene::Model;
 use crate::spec::Spec;
 use args::{Cli, Command};
 
-pub use filters::{filter_text, filters_markdown, filters_text};
+pub use filters::{filter_text, filters_index, filters_markdown, filters_text};
 pub use info::info_text;
 pub use init::init_text;
 pub use report::report;
-pub use schema::schema;
+pub use schema::{keys_markdown, schema};
+pub use shapes::{shape_text, shapes_markdown, shapes_text};
 
 /// The input is wrong; clap itself exits with 2 when the usage is.
 const WRONG_INPUT: u8 = 1;
@@ -58,7 +62,16 @@ pub fn run() -> ExitCode {
             print(&if markdown { filters_markdown() } else { filters_text() });
             Ok(())
         }
-        Command::Schema => {
+        Command::Shapes { name: Some(name), .. } => shapes::shape_text(&name).map(|text| print_wrapped(&text)),
+        Command::Shapes { markdown, .. } => {
+            print(&if markdown { shapes_markdown() } else { shapes_text() });
+            Ok(())
+        }
+        Command::Schema { markdown: true } => {
+            print(&keys_markdown());
+            Ok(())
+        }
+        Command::Schema { markdown: false } => {
             print_json(&schema());
             Ok(())
         }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::{Instance, Item, Lens, LensSet, Plan, Region};
 use crate::appearance as wgsl;
 use crate::pieces::Edges;
-use crate::scene::{Closure, Scene};
+use crate::scene::{Closure, Enclosing, Scene};
 use crate::spec::{At, By, Cap, Filter, Spec};
 
 /// A node as erasers with `cap` cut it: all of it that is shown in one way.
@@ -139,9 +139,6 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
 /// The nodes that may be cut, in each of the ways in which all of a node is shown; the smallest first: of those that lie
 /// in each other the inner ones.
 pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
-    let primitives = |node: &[Item]| node.iter().filter(|item| !item.is_simplified()).count();
-    let nodes = items.chunk_by(is_same_node).flat_map(|node| std::iter::repeat_n(primitives(node), node.len()));
-    let primitives_of_node: Vec<usize> = nodes.collect();
     // By the content, the node, the version and the lenses that move it.
     let mut ways: BTreeMap<(usize, usize, u32, Vec<usize>), Body> = BTreeMap::new();
     for (number, instance) in instances.iter().enumerate().filter(|(_, instance)| items[instance.item].is_cut) {
@@ -151,27 +148,35 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
             ways.entry((item.content, item.node, item.ratio.to_bits(), way)).or_insert(Body { members: Vec::new() });
         body.members.push(Member { instance: number, group: 0 });
     }
-    for body in ways.values_mut() {
-        let item = |member: &Member| &items[instances[member.instance].item];
-        let first = item(&body.members[0]);
-        let closure = scene.models[first.model].closure(first.mesh, first.ratio);
-        let head = |member: &Member| closure.primitives[item(member).primitive].group;
-        let heads: Vec<usize> = body.members.iter().map(head).collect();
-        // Groups are told by their first primitive; here by the first member that is of one.
-        let groups = heads.iter().map(|group| heads.iter().position(|other| other == group).unwrap_or_default());
-        body.members.iter_mut().zip(groups.collect::<Vec<_>>()).for_each(|(member, group)| member.group = group);
-    }
     let first = |body: &Body| &instances[body.members[0].instance];
-    // What a lens moves or simplifies only some primitives of is not closed there.
-    let is_whole = |body: &Body| primitives_of_node[first(body).item] == body.members.len();
+    let whole: Vec<Body> = ways.into_values().filter_map(|body| grouped(scene, items, instances, body)).collect();
     let size = |body: &Body| {
         let item = &items[first(body).item];
         let in_place = scene.models[item.model].node_bounds(item.node).size().element_product();
         in_place * first(body).shown_from_world.matrix3.determinant().abs()
     };
-    let mut bodies: Vec<(f64, Body)> = ways.into_values().filter(is_whole).map(|body| (size(&body), body)).collect();
+    let mut bodies: Vec<(f64, Body)> = whole.into_iter().map(|body| (size(&body), body)).collect();
     bodies.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     bodies.into_iter().map(|(_, body)| body).collect()
+}
+
+/// A body with its members by what they enclose together. `None` where it lacks some of that: what a lens shows, moves or
+/// simplifies only some primitives of encloses nothing.
+fn grouped(scene: &Scene, items: &[Item], instances: &[Instance], mut body: Body) -> Option<Body> {
+    let item = |member: &Member| &items[instances[member.instance].item];
+    let first = item(&body.members[0]);
+    let closure = scene.models[first.model].closure(first.mesh, first.ratio);
+    // Groups are told by their first primitive; here by the first member that is of one.
+    let mut firsts: BTreeMap<usize, usize> = BTreeMap::new();
+    for (number, member) in body.members.iter_mut().enumerate() {
+        let head = closure.primitives[item(member).primitive].group;
+        member.group = *firsts.entry(head).or_insert(number);
+    }
+    let wanted = |primitive: &&Enclosing| !primitive.is_empty() && firsts.contains_key(&primitive.group);
+    if closure.primitives.iter().filter(wanted).count() > body.members.len() {
+        return None;
+    }
+    Some(body)
 }
 
 impl Item {

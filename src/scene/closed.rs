@@ -34,6 +34,11 @@ pub struct Enclosing {
 }
 
 impl Enclosing {
+    /// It has no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.triangles == 0
+    }
+
     /// Of one of its triangles, or of a lid behind them.
     pub fn role(&self, triangle: usize) -> Role {
         let lid = triangle.checked_sub(self.triangles).and_then(|lid| self.lids.get(lid));
