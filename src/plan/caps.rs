@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::{Instance, Item, Lens, LensSet, Plan, Region};
 use crate::appearance as wgsl;
 use crate::pieces::Edges;
-use crate::scene::{Closure, Enclosing, Scene};
+use crate::scene::{Closure, Scene};
 use crate::spec::{At, By, Cap, Filter, Spec};
 
 /// A node as erasers with `cap` cut it: all of it that is shown in one way.
@@ -160,23 +160,27 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
     bodies.into_iter().map(|(_, body)| body).collect()
 }
 
-/// A body with its members by what they enclose together. `None` where it lacks some of that: what a lens shows, moves or
-/// simplifies only some primitives of encloses nothing.
-fn grouped(scene: &Scene, items: &[Item], instances: &[Instance], mut body: Body) -> Option<Body> {
+/// A body with its members by what they enclose together, without those that lack some of that: what a lens shows, moves or
+/// simplifies only some primitives of encloses nothing. `None` where nothing is left.
+fn grouped(scene: &Scene, items: &[Item], instances: &[Instance], body: Body) -> Option<Body> {
     let item = |member: &Member| &items[instances[member.instance].item];
     let first = item(&body.members[0]);
     let closure = scene.models[first.model].closure(first.mesh, first.ratio);
-    // Groups are told by their first primitive; here by the first member that is of one.
+    let head = |member: &Member| closure.primitives[item(member).primitive].group;
+    // Of each group, told by its first primitive, how many there are and how many are here.
+    let mut counts: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
+    for primitive in closure.primitives.iter().filter(|primitive| !primitive.is_empty()) {
+        counts.entry(primitive.group).or_default()[0] += 1;
+    }
+    body.members.iter().for_each(|member| counts.entry(head(member)).or_default()[1] += 1);
+    let is_whole = |member: &Member| counts.get(&head(member)).is_some_and(|[all, here]| all == here);
+    let mut members: Vec<Member> = body.members.into_iter().filter(is_whole).collect();
+    // Here groups are told by the first member that is of one.
     let mut firsts: BTreeMap<usize, usize> = BTreeMap::new();
-    for (number, member) in body.members.iter_mut().enumerate() {
-        let head = closure.primitives[item(member).primitive].group;
-        member.group = *firsts.entry(head).or_insert(number);
+    for (number, member) in members.iter_mut().enumerate() {
+        member.group = *firsts.entry(head(member)).or_insert(number);
     }
-    let wanted = |primitive: &&Enclosing| !primitive.is_empty() && firsts.contains_key(&primitive.group);
-    if closure.primitives.iter().filter(wanted).count() > body.members.len() {
-        return None;
-    }
-    Some(body)
+    (!members.is_empty()).then_some(Body { members })
 }
 
 impl Item {
