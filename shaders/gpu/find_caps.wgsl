@@ -2,7 +2,7 @@
 // `cpu/pixel/caps.rs`.
 
 struct CutVarying {
-    @builtin(position) position: vec4f,
+    @invariant @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) item: u32,
     @location(1) depth: f32,
     // In the order in which the item's are drawn.

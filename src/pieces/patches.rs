@@ -32,7 +32,7 @@ pub struct Piece {
     pub is_open: bool,
     /// It cannot be turned to face one way.
     pub is_by_parity: bool,
-    /// It has no triangle with three corners.
+    /// It has no triangle with three corners where no earlier one lies.
     pub is_empty: bool,
     pub area: f64,
 }
@@ -56,14 +56,30 @@ fn is_degenerate([a, b, c]: &[u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
-fn runs(triangles: &[[u32; 3]]) -> Vec<Run> {
+/// Of each triangle, whether an earlier one lies there already, whichever way it faces.
+fn repeats(triangles: &[[u32; 3]]) -> Vec<bool> {
+    let sorted = |(number, corners): (usize, &[u32; 3])| {
+        let mut corners = *corners;
+        corners.sort_unstable();
+        (corners, number as u32)
+    };
+    let mut places: Vec<([u32; 3], u32)> = triangles.par_iter().enumerate().map(sorted).collect();
+    places.par_sort_unstable();
+    let mut repeats = vec![false; triangles.len()];
+    for pair in places.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        repeats[pair[1].1 as usize] = true;
+    }
+    repeats
+}
+
+fn runs(triangles: &[[u32; 3]], repeats: &[bool]) -> Vec<Run> {
     let of_triangle = |(number, corners): (usize, &[u32; 3])| {
-        let ([a, b, c], is_degenerate) = (*corners, is_degenerate(corners));
+        let ([a, b, c], is_left_out) = (*corners, repeats[number] || is_degenerate(corners));
         let run = move |(from, to): (u32, u32)| {
             let edge = u64::from(from.min(to)) << 32 | u64::from(from.max(to));
             (edge, 2 * number as u32 + u32::from(from < to))
         };
-        [(a, b), (b, c), (c, a)].into_iter().filter(move |_| !is_degenerate).map(run)
+        [(a, b), (b, c), (c, a)].into_iter().filter(move |_| !is_left_out).map(run)
     };
     let mut runs: Vec<Run> = triangles.par_iter().enumerate().flat_map_iter(of_triangle).collect();
     runs.par_sort_unstable();
@@ -77,7 +93,8 @@ fn direction(run: &Run, turned: bool) -> i32 {
 
 impl Patches {
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let runs = runs(triangles);
+        let repeats = repeats(triangles);
+        let runs = runs(triangles, &repeats);
         let by_edge = || runs.chunk_by(|a, b| a.0 == b.0);
         let mut edges = Edges::default();
         let mut sets = Sets::new(triangles.len());
@@ -96,7 +113,7 @@ impl Patches {
                 _ => edges.touching += 1,
             }
         }
-        join_degenerate(vertices.len(), triangles, &mut sets);
+        join_degenerate(vertices.len(), triangles, &repeats, &mut sets);
         let mut patches = Self {
             edges,
             numbers: vec![0; triangles.len()],
@@ -118,7 +135,7 @@ impl Patches {
             }
             let area = area(vertices, corners);
             let patch = &mut patches.pieces[*number as usize];
-            patch.is_empty &= is_degenerate(corners);
+            patch.is_empty &= repeats[i] || is_degenerate(corners);
             patch.area += area;
             patch.is_by_parity |= one_sided[i];
             facing[*number as usize] += if turned { -area } else { area };
@@ -236,12 +253,13 @@ pub fn area(vertices: &[DVec3], triangle: &[u32; 3]) -> f64 {
 }
 
 /// Joins triangles of which corners coincide to others at their corners.
-fn join_degenerate(vertices: usize, triangles: &[[u32; 3]], sets: &mut Sets) {
+fn join_degenerate(vertices: usize, triangles: &[[u32; 3]], repeats: &[bool], sets: &mut Sets) {
     if !triangles.iter().any(is_degenerate) {
         return;
     }
     let mut at_vertex = vec![u32::MAX; vertices];
-    for (i, corners) in (0u32..).zip(triangles).filter(|(_, corners)| !is_degenerate(corners)) {
+    let counts = |i: u32, corners: &[u32; 3]| !repeats[i as usize] && !is_degenerate(corners);
+    for (i, corners) in (0u32..).zip(triangles).filter(|(i, corners)| counts(*i, corners)) {
         corners.iter().for_each(|corner| at_vertex[*corner as usize] = i);
     }
     for (i, corners) in (0u32..).zip(triangles).filter(|(_, corners)| is_degenerate(corners)) {

@@ -194,7 +194,7 @@ mod tests {
         let parts = closure(&tetrahedron(&[&[0, 3], &[1, 2]]));
         assert_eq!((parts.closed, groups(&parts)), (1, vec![0, 0]));
         let two = closure(&tetrahedron(&[&[0, 1, 2, 3], &[0, 1, 2, 3]]));
-        assert_eq!(groups(&two), [0, 0], "they share all their edges");
+        assert_eq!(groups(&two), [0, 1], "of triangles over the same corners one counts");
     }
 
     #[test]

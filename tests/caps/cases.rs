@@ -7,12 +7,12 @@ use lenspeel::frame::Frame;
 use lenspeel::pixel::cap_maker;
 use lenspeel::scene::Primitive;
 
-use crate::solids::{Part, ball, cuboid, halves, planned, second, sheet, turned, with, with_seam};
-use crate::{Draw, cap_pixels, has_area, maps};
+use crate::solids::{LENS, Part, ball, cuboid, halves, planned, second, sheet, turned, with, with_seam};
+use crate::{Draw, SHARE, cap_pixels, has_area, maps};
 
 pub type Check = fn(Draw) -> Result<(), String>;
 
-pub const ALL: [(&str, Check); 24] = [
+pub const ALL: [(&str, Check); 25] = [
     ("a-ball-cut-by-a-plane", plane),
     ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
     ("a-ball-cut-by-a-sphere", sphere),
@@ -34,6 +34,7 @@ pub const ALL: [(&str, Check); 24] = [
     ("triangles-turned-round", some_turned),
     ("a-hole-far-from-the-cut", hole_far_off),
     ("solids-of-one-mesh-that-overlap", overlapping),
+    ("a-mesh-lens-of-solids-that-overlap", mesh_lens),
     ("lenses-below-the-eraser-leave-its-cap", lower_lens),
     ("own-colours-of-the-nearest-surface", own_colors),
     ("edges-between-caps-of-nodes", edges_between),
@@ -292,6 +293,21 @@ fn overlapping(draw: Draw) -> Result<(), String> {
         has_area(maps(&frame)?, 0, pixels(2.4 + 2.16 - 0.9))?;
     }
     Ok(())
+}
+
+/// A mesh lens takes the same solids as caps do: two bars that overlap, one of them inside out, and a hollow box.
+fn mesh_lens(draw: Draw) -> Result<(), String> {
+    let bars = with(cuboid(Vec3::ZERO, Vec3::new(1.2, 0.5, 0.6)), turned(bar()));
+    let at = |half: f32| cuboid(Vec3::new(0.95, 0.95, 0.0), Vec3::splat(half));
+    let solids = with(bars, with(at(0.3), turned(at(0.2))));
+    let parts = vec![("plate", vec![cuboid(Vec3::ZERO, Vec3::new(1.45, 1.45, 0.05))]), (LENS, vec![solids])];
+    let shape = format!("mesh = {{ file = \"made-in-code.glb\", node = \"{LENS}\", convex = \"decompose\" }}");
+    let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+    let frame = draw(&planned(parts, SIDE, &camera, &lens("solids", &shape, "\"invert\"")))?;
+    let aovs = maps(&frame)?;
+    let is_inside = |at: &usize| aovs.region(*at).is_some_and(|region| !region.set.is_empty());
+    let (found, expected) = ((0..aovs.nodes.len()).filter(is_inside).count() as f64, pixels(3.66 + 0.36 - 0.16));
+    if (found - expected).abs() <= SHARE * expected { Ok(()) } else { Err(format!("{found}, not {expected} pixels")) }
 }
 
 fn bar() -> Primitive {

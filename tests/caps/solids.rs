@@ -1,9 +1,10 @@
 //! Solids made in code: balls and boxes, whole, turned inside out, or with a hole.
 
 use glam::{DAffine3, DVec3, Vec3};
+use lenspeel::lens::MeshForm;
 use lenspeel::plan::Plan;
 use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Scene, Transform};
-use lenspeel::spec::Spec;
+use lenspeel::spec::{Shape, Spec};
 
 use crate::open::Opened;
 
@@ -12,6 +13,9 @@ const MATERIALS: [&str; 2] = ["first", "second"];
 
 /// A node with the primitives of its mesh.
 pub type Part = (&'static str, Vec<Primitive>);
+
+/// The node that lenses may take for their shape; it is not drawn.
+pub const LENS: &str = "lens";
 
 /// A scene of such nodes, and a plan over it of a square picture with a camera and lenses (TOML).
 pub fn planned(parts: Vec<Part>, side: u32, camera: &str, lenses: &str) -> Opened {
@@ -31,11 +35,19 @@ pub fn planned(parts: Vec<Part>, side: u32, camera: &str, lenses: &str) -> Opene
             mesh: Some(model.meshes.len()),
             camera: None,
             light: None,
-            drawn: true,
+            drawn: name != LENS,
         });
         model.meshes.push(Mesh { name: name.into(), primitives });
     }
-    let scene = Scene::new(vec![model], vec![]);
+    let mut scene = Scene::new(vec![model], vec![]);
+    for shape in spec.lenses.iter().flat_map(|lens| lens.shape.parts()) {
+        if let Shape::Mesh(mesh) = &shape.value {
+            let model = &scene.models[0];
+            let node = model.nodes.iter().position(|node| node.name == LENS);
+            let form = MeshForm::new(model, node, mesh.convex).expect("the test's mesh is closed");
+            scene.lens_meshes.insert(mesh, form);
+        }
+    }
     let plan = Plan::new(&spec, &scene).expect("the test's plan is right");
     Opened { scene, plan }
 }

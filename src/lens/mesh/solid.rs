@@ -26,7 +26,10 @@ const ANYWHERE: DVec3 = DVec3::new(0.527_348, 0.331_907, 0.782_154);
 impl MeshSolid {
     /// From a closed surface, with the role of each triangle.
     pub fn new(vertices: Vec<DVec3>, triangles: &[[u32; 3]], roles: &[Role]) -> Self {
-        let mut tree = TriangleTree::new(vertices, triangles);
+        let counted = |(_, role): &(&[u32; 3], &Role)| role.is_closed();
+        let (triangles, roles): (Vec<[u32; 3]>, Vec<Role>) =
+            triangles.iter().zip(roles).filter(counted).map(|(corners, role)| (*corners, *role)).unzip();
+        let mut tree = TriangleTree::new(vertices, &triangles);
         let mut roles: Vec<Role> = tree.numbers.iter().map(|number| roles[*number as usize]).collect();
         for (corners, role) in tree.triangles.iter_mut().zip(&mut roles).filter(|(_, role)| role.is_turned()) {
             corners.swap(1, 2);
