@@ -97,6 +97,13 @@ impl PixelAccount<'_> {
             let place = places(self.plan, self.pixel, instance, depth).1;
             writeln!(f, "{INDENT}moved by {} from {}", surface.moved_by.join(", "), point_text(place))?;
         }
+        if let Some(maker) = cap_maker(triangle) {
+            let below = region.set & self.plan.below_cap(maker);
+            if !below.is_empty() {
+                let by = actor(self.spec, self.plan, maker);
+                writeln!(f, "{INDENT}a cap keeps the look of {by}: not on it {}", self.plan.names(below).join(", "))?;
+            }
+        }
         f.write_str(&reasons.lines(&region, INDENT))
     }
 

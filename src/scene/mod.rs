@@ -21,7 +21,7 @@ pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
 pub(crate) use budget::TO_TAKE_LESS;
 pub use budget::{Budget, OpenOptions};
-pub use closed::{Closure, ClosureCache};
+pub use closed::{Closure, ClosureCache, Enclosing};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
