@@ -8,11 +8,11 @@ use super::convert::{g3, v3};
 use super::pixel::{Scratch, Tracer};
 use super::screen::{self, Plane};
 use crate::appearance as wgsl;
-use crate::frame::{Aovs, Frame, RegionTable};
+use crate::frame::{Aovs, Frame, InFront, NOTHING, RegionTable};
 use crate::lens::{LayerStart, PixelRect, RayLayers};
 use crate::pick::Pick;
 use crate::pixel::{PixelReport, Visible};
-use crate::plan::Plan;
+use crate::plan::{Plan, Region};
 use crate::scene::Scene;
 
 /// Rows of a picture whose samples are kept at once, for filters of the screen.
@@ -97,6 +97,34 @@ impl<'a> Renderer<'a> {
             }
         }
         depths
+    }
+
+    /// What lies in front of the visible fragment at the centre of each pixel.
+    pub fn in_front(&self) -> InFront {
+        let [width, height] = self.plan.view.size;
+        let ranks = self.plan.lenses.len() + self.plan.rules.len();
+        let tiles: Vec<(PixelRect, InFront, Vec<Option<Region>>)> = tiles([width, height], BLOCK)
+            .into_par_iter()
+            .map_init(Scratch::noting, |scratch, rect| {
+                let block = Block { rect, side: 1 };
+                self.tracer.trace(&block, &self.ranks(&rect), scratch);
+                let (mut counts, mut nearest) = (InFront::empty(ranks, 0), Vec::new());
+                self.tracer.count_in_front(block.len(), scratch, &mut counts, &mut nearest);
+                (rect, counts, nearest)
+            })
+            .collect();
+        let mut all = InFront::empty(ranks, width as usize * height as usize);
+        let mut table = RegionTable::default();
+        for (rect, counts, nearest) in tiles {
+            all.removes.iter_mut().zip(counts.removes).for_each(|(all, own)| *all += own);
+            all.seen_through.iter_mut().zip(counts.seen_through).for_each(|(all, own)| *all += own);
+            counts.regions.into_iter().for_each(|(region, own)| *all.regions.entry(region).or_default() += own);
+            for ((x, y), region) in pixels_of(&rect).zip(nearest) {
+                all.nearest[(y * width + x) as usize] = region.map_or(NOTHING, |region| table.number(region));
+            }
+        }
+        all.table = table.table;
+        all
     }
 
     fn collect(&self, tiles: &[TileResult]) -> Aovs {

@@ -9,7 +9,8 @@ mod text;
 pub use coverage::Coverage;
 pub use pixel::{PixelAccount, point_text};
 
-use crate::frame::Aovs;
+use crate::frame::{Aovs, InFront};
+use crate::output::Actor;
 use crate::plan::{Account, Plan, Region};
 use crate::spec::Spec;
 
@@ -29,26 +30,19 @@ impl<'a> Explanation<'a> {
         Self { spec, plan, account, regions, coverage: None }
     }
 
-    /// Adds what a picture of the plan shows: how much of it each region takes, and regions that only the picture found.
-    /// `backend` is who made it, in a word.
-    pub fn in_view(self, aovs: &Aovs, backend: &str) -> Self {
-        let regions = crate::output::numbered(self.plan, self.account.regions.iter().chain(&aovs.table));
-        let coverage = Some(Coverage::new(self.plan.view.size, aovs, backend));
+    /// Adds what a picture of the plan shows: how much of it each region takes, what lies in front of that, and regions that
+    /// only the picture found. `backend` is who made it, in a word.
+    pub fn in_view(self, aovs: &Aovs, in_front: InFront, backend: &str) -> Self {
+        let found = self.account.regions.iter().chain(&aovs.table).chain(in_front.regions.keys());
+        let regions = crate::output::numbered(self.plan, found);
+        let coverage = Some(Coverage::new(self.plan.view.size, aovs, in_front, backend));
         Self { regions, coverage, ..self }
     }
 }
 
 /// Who acts at a rank of a stack: a lens by name, or a rule by its line.
-fn actor(spec: &Spec, plan: &Plan, rank: usize) -> String {
-    match plan.rule_of(rank) {
-        Some(rule) => format!("rule in line {}", rule_line(spec, rule)),
-        None => plan.lenses[rank].name.clone(),
-    }
-}
-
-/// The line of a rule's condition.
-fn rule_line(spec: &Spec, rule: usize) -> usize {
-    spec.source.line(spec.overlaps[rule].when.span.start)
+fn actor(plan: &Plan, rank: usize) -> String {
+    Actor::of(plan, rank).to_string()
 }
 
 /// The lenses of a set, or that there are none.

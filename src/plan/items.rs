@@ -4,6 +4,7 @@ use super::{Lens, LensSet, Rule, instances};
 use glam::{DAffine3, DVec3};
 
 use crate::InputError;
+use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
 use crate::scene::{Aabb, Model, Primitive, Scene, Subject};
 use crate::spec::{At, By, Cap, Filter, Pattern, ShowWhat, Spec, lod};
@@ -108,7 +109,7 @@ impl Item {
     }
 
     /// What name patterns are held against.
-    pub(super) fn subject<'a>(&self, scene: &'a Scene) -> Subject<'a> {
+    pub(crate) fn subject<'a>(&self, scene: &'a Scene) -> Subject<'a> {
         let model = &scene.models[self.model];
         let material = &model.materials[self.material - scene.material_base[self.model]].name;
         Subject { model, node: self.node, material }
@@ -297,15 +298,17 @@ fn model_of(alternate: &At<String>, scene: &Scene) -> usize {
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
     let mut contents = vec![Content { model: 0, only: None }];
     let mut shown: Vec<Content> = Vec::new();
+    let mut faults = Faults::default();
     let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
     let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
     for (enabled, filter) in of_lenses.chain(of_rules) {
         let Filter::Show(what) = &filter.value else { continue };
-        check_shown(spec, scene, what)?;
+        check_shown(spec, scene, what, &mut faults);
         if enabled {
             shown.push(content(what, scene));
         }
     }
+    faults.finish()?;
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
     for content in shown {
         if !contents.contains(&content) {
@@ -316,24 +319,23 @@ fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
 }
 
 /// What `show` names must be there.
-fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat) -> Result<(), InputError> {
+fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat, faults: &mut Faults) {
     let (model, nodes, materials) = match what {
         ShowWhat::Alternate { name, only } => {
             (&scene.models[model_of(name, scene)], only.nodes.as_slice(), only.materials.as_slice())
         }
         ShowWhat::Nodes(nodes) => (&scene.models[0], nodes.as_slice(), &[][..]),
     };
-    let refuse = |what: &str, pattern: &At<Pattern>, help: String| {
+    let mut refuse = |what: &str, pattern: &At<Pattern>, help: String| {
         let message = format!("`show` finds no {what} of `{}` that matches `{}`", model.name, pattern.value);
-        Err(InputError::at(&spec.source, pattern.span.clone(), message).help(help))
+        faults.note(InputError::at(&spec.source, pattern.span.clone(), message).help(help));
     };
-    if let Some(pattern) = nodes.iter().find(|p| !model.has_node(&p.value)) {
-        return refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
+    for pattern in nodes.iter().filter(|p| !model.has_node(&p.value)) {
+        refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
     }
-    if let Some(pattern) = materials.iter().find(|p| !model.has_material(&p.value)) {
-        return refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
+    for pattern in materials.iter().filter(|p| !model.has_material(&p.value)) {
+        refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
     }
-    Ok(())
 }
 
 /// Whether a content may have a node: its model draws it, and the spec does not hide it.

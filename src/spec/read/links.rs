@@ -4,23 +4,23 @@ use std::collections::HashMap;
 
 use super::suggest;
 use crate::InputError;
+use crate::error::Faults;
 use crate::lens::{MAX_LENSES, MAX_PARTS, MAX_RULES};
 use crate::spec::{At, Condition, Filter, LensSpec, Pattern, ShowWhat, Source, Spec};
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
     let links = Links { source: &spec.source, spec };
-    links.count()?;
-    links.count_rules()?;
-    links.count_parts()?;
-    links.unique_names()?;
-    for lens in &spec.lenses {
-        links.lens(lens)?;
+    let mut faults = Faults::default();
+    for counted in [links.count(), links.count_rules(), links.count_parts()] {
+        faults.take(counted);
     }
+    links.unique_names(&mut faults);
+    spec.lenses.iter().for_each(|lens| links.lens(lens, &mut faults));
     for rule in &spec.overlaps {
-        links.condition(&rule.when.value)?;
-        links.filters(&rule.filters)?;
+        links.condition(&rule.when.value, &mut faults);
+        links.filters(&rule.filters, &mut faults);
     }
-    Ok(())
+    faults.finish()
 }
 
 struct Links<'a> {
@@ -51,26 +51,25 @@ impl Links<'_> {
         Err(self.error(first_too_many, message).help("a hull or a mesh is one part, however many faces it has"))
     }
 
-    fn unique_names(&self) -> Result<(), InputError> {
+    fn unique_names(&self, faults: &mut Faults) {
         let mut seen: HashMap<&str, &At<String>> = HashMap::new();
         for lens in &self.spec.lenses {
-            if let Some(first) = seen.insert(&lens.name.value, &lens.name) {
-                return Err(self
-                    .error(&lens.name, format!("there are two lenses named `{}`", lens.name.value))
-                    .label(first.span.clone(), "the first is here")
-                    .help("rename one of them"));
+            if let Some(first) = seen.get(lens.name.value.as_str()) {
+                let message = format!("there are two lenses named `{}`", lens.name.value);
+                let error = self.error(&lens.name, message).label(first.span.clone(), "the first is here");
+                faults.note(error.help("rename one of them"));
             }
+            seen.entry(&lens.name.value).or_insert(&lens.name);
         }
-        Ok(())
     }
 
-    fn lens(&self, lens: &LensSpec) -> Result<(), InputError> {
+    fn lens(&self, lens: &LensSpec, faults: &mut Faults) {
         for (key, patterns) in [("over", &lens.over), ("under", &lens.under), ("hides", &lens.hides)] {
             for pattern in patterns {
-                self.other_lens(lens, key, pattern)?;
+                faults.take(self.other_lens(lens, key, pattern));
             }
         }
-        self.filters(&lens.filters)
+        self.filters(&lens.filters, faults);
     }
 
     /// An edge must lead to a lens other than its own (SEMANTICS 3.1).
@@ -87,30 +86,28 @@ impl Links<'_> {
         Err(self.error(pattern, message).help("name another lens, or leave it out"))
     }
 
-    fn condition(&self, condition: &Condition) -> Result<(), InputError> {
+    fn condition(&self, condition: &Condition, faults: &mut Faults) {
         match condition {
             Condition::Lens(pattern) => {
                 let names = self.spec.lenses.iter().map(|lens| lens.name.value.as_str());
-                match names.clone().any(|name| pattern.value.matches(name)) {
-                    true => Ok(()),
-                    false => Err(self.no_match("`when` names", pattern, names)),
+                if !names.clone().any(|name| pattern.value.matches(name)) {
+                    faults.note(self.no_match("`when` names", pattern, names));
                 }
             }
-            Condition::Not(inner) => self.condition(inner),
+            Condition::Not(inner) => self.condition(inner, faults),
             Condition::And(left, right) | Condition::Or(left, right) => {
-                self.condition(left)?;
-                self.condition(right)
+                self.condition(left, faults);
+                self.condition(right, faults);
             }
         }
     }
 
-    fn filters(&self, filters: &[At<Filter>]) -> Result<(), InputError> {
+    fn filters(&self, filters: &[At<Filter>], faults: &mut Faults) {
         for filter in filters {
             if let Filter::Show(ShowWhat::Alternate { name, .. }) = &filter.value {
-                self.alternate(name)?;
+                faults.take(self.alternate(name));
             }
         }
-        Ok(())
     }
 
     fn alternate(&self, wanted: &At<String>) -> Result<(), InputError> {
