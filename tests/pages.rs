@@ -127,7 +127,9 @@ fn cited(text: &str) -> Option<(usize, Option<usize>)> {
 fn every_section_that_the_project_cites_is_there() {
     let meaning = page(MEANING);
     let mut paths = Vec::new();
-    ["src", "shaders", "tests", "benches", "examples", "lens-specs"].iter().for_each(|f| files(Path::new(f), &mut paths));
+    ["src", "shaders", "tests", "benches", "examples", "lens-specs"]
+        .iter()
+        .for_each(|f| files(Path::new(f), &mut paths));
     let mut count = 0;
     for path in paths {
         let text = fs::read_to_string(&path).unwrap_or_default();

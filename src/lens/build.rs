@@ -106,7 +106,9 @@ fn part(shape: &Shape, world: DAffine3, view: &View, meshes: &LensMeshes) -> Res
             let into_form = pose.inverse();
             Ok(solid(form, world * pose, points.iter().map(|p| into_form.transform_point3(*p)).collect()))
         }
-        Shape::HalfSpace { point, normal } => Ok(unbounded(world, v(*point), &[Plane::through(v(*normal), DVec3::ZERO)])),
+        Shape::HalfSpace { point, normal } => {
+            Ok(unbounded(world, v(*point), &[Plane::through(v(*normal), DVec3::ZERO)]))
+        }
         Shape::Slab { point, normal, thickness } => {
             let sides = [v(*normal), -v(*normal)].map(|normal| Plane::new(normal.normalize(), 0.5 * thickness));
             Ok(unbounded(world, v(*point), &sides))

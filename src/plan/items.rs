@@ -129,8 +129,7 @@ pub(super) fn collect(
     for (content_index, content) in contents.iter().enumerate() {
         let model = &scene.models[content.model];
         for node in 0..model.nodes.len() {
-            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_drawn(spec, model, content_index, node))
-            else {
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_drawn(spec, model, content_index, node)) else {
                 continue;
             };
             let bounds = model.primitive_bounds(node);

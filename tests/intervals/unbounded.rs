@@ -64,7 +64,9 @@ fn rays_are_inside_where_they_lie_within_the_planes() {
             let ray = stage.view.ray(random.between(0.0, 22.0), random.between(0.0, 18.0));
             let mut intervals = Vec::new();
             stage.volume.intervals(&ray, near, far, &mut intervals);
-            assert!(intervals.len() <= 1 && intervals.iter().all(|i| near <= i.entry && i.entry < i.exit && i.exit <= far));
+            assert!(
+                intervals.len() <= 1 && intervals.iter().all(|i| near <= i.entry && i.entry < i.exit && i.exit <= far)
+            );
             let depth = random.between(near, far);
             let Some(holds) = stage.holds(ray.at(depth)) else { continue };
             assert_eq!(intervals.iter().any(|i| (i.entry..i.exit).contains(&depth)), holds, "{:?}", stage.volume);

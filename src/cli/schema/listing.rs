@@ -48,7 +48,9 @@ pub fn keys_markdown() -> String {
     let schema = schema();
     let sections: Vec<String> = TABLES
         .iter()
-        .map(|Listed { title, pointer, keys }| format!("### {title}\n\n{}", markdown(&rows(&at(&schema, pointer), keys))))
+        .map(|Listed { title, pointer, keys }| {
+            format!("### {title}\n\n{}", markdown(&rows(&at(&schema, pointer), keys)))
+        })
         .collect();
     sections.join("\n")
 }

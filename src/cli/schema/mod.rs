@@ -2,8 +2,8 @@
 
 mod filters;
 mod kinds;
-mod listing;
 mod lens;
+mod listing;
 mod shapes;
 mod tables;
 

@@ -62,8 +62,7 @@ fn cornered() -> Vec<(&'static str, Value)> {
         "depth": described(size(), "How far behind it the lens reaches; default: to the far plane.", NONE),
     });
     let normal = |help| described(vector(), help, NONE);
-    let half_space =
-        json!({ "point": point("On its plane."), "normal": normal("Points out of the volume; of any length but zero.") });
+    let half_space = json!({ "point": point("On its plane."), "normal": normal("Points out of the volume; of any length but zero.") });
     let slab = json!({
         "point": point("Midway between the planes."),
         "normal": normal("Across the planes; of any length but zero."),
@@ -107,10 +106,5 @@ fn composed() -> Vec<(&'static str, Value)> {
         ),
     });
     let list = || json!({ "type": "array", "items": reference("shape"), "minItems": 1 });
-    vec![
-        ("mesh", table(&["file"], mesh)),
-        ("union", list()),
-        ("intersection", list()),
-        ("difference", list()),
-    ]
+    vec![("mesh", table(&["file"], mesh)), ("union", list()), ("intersection", list()), ("difference", list())]
 }

@@ -34,7 +34,12 @@ pub const SHAPES: &[ShapeRow] = &[
     row("box", keys::BOX, "middle", "a cuboid: `center` and `size`, perhaps turned; or `min` and `max`"),
     row("cylinder", keys::CYLINDER, MIDPOINT, "a round solid with flat ends about a line"),
     row("cone", keys::CONE, MIDPOINT, "the same with a radius at each end"),
-    row("capsule", keys::CAPSULE, MIDPOINT, "all points within a radius of a line, or of a point where both ends are one"),
+    row(
+        "capsule",
+        keys::CAPSULE,
+        MIDPOINT,
+        "all points within a radius of a line, or of a point where both ends are one",
+    ),
     row("polytope", keys::POLYTOPE, MIDDLE, "the points inside all planes; they must leave no side open"),
     row("hull", keys::HULL, MIDDLE, "the convex hull of points"),
     row(
