@@ -1,8 +1,10 @@
 //! The error of the input side: what is wrong, where, and what to do; and several of them.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
+use crate::limits::MAX_SHOWN;
 use crate::spec::Source;
 
 /// Something in a spec or a model is wrong. `Display` is a single paragraph that names the place;
@@ -67,9 +69,9 @@ impl fmt::Display for InputError {
             }
             write!(f, ": ")?;
         }
-        write!(f, "{}", self.message)?;
+        write!(f, "{}", shortened(&self.message))?;
         if let Some(help) = &self.help {
-            write!(f, " ({help})")?;
+            write!(f, " ({})", shortened(help))?;
         }
         match self.others.len() {
             0 => Ok(()),
@@ -132,5 +134,41 @@ mod tests {
         assert_eq!((error.message.as_str(), messages), ("fault 3", vec!["fault 5", "fault 7"]));
         assert_eq!(error.to_string(), "spec.toml:1: fault 3 (and 2 more)");
         assert!(Faults::default().finish().is_ok());
+    }
+}
+
+/// A text as messages show it: words that are much longer than any name are cut.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    if text.split_whitespace().all(|word| word.len() <= MAX_SHOWN) {
+        return Cow::Borrowed(text);
+    }
+    let mut short = String::new();
+    for piece in text.split_inclusive(char::is_whitespace) {
+        let count = piece.chars().count();
+        if count <= MAX_SHOWN {
+            short.push_str(piece);
+            continue;
+        }
+        // What stands behind the name, such as a quote, stays.
+        let tail: String = piece.chars().skip(count - 16).collect();
+        short.extend(piece.chars().take(MAX_SHOWN / 2));
+        short.push_str(&format!("... ({count} characters) ...{tail}"));
+    }
+    Cow::Owned(short)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_words_longer_than_any_name_are_cut() {
+        let plain = "no lens matches `cut-*`, however long the sentence is ".repeat(40);
+        assert_eq!(shortened(&plain), plain);
+        let long = format!("no lens matches `{}é`, so it is", "x".repeat(200_000));
+        let short = shortened(&long);
+        assert!(short.len() < 2 * MAX_SHOWN, "{short}");
+        assert!(short.starts_with("no lens matches `xxx") && short.ends_with("xé`, so it is"), "{short}");
+        assert!(short.contains("200004 characters"), "{short}");
     }
 }

@@ -14,6 +14,7 @@ pub mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod lens;
+pub mod limits;
 pub mod output;
 pub mod pick;
 pub mod pixel;

@@ -73,7 +73,7 @@ fn render(shape: &str, attach: &str, place: &Place) -> Frame {
     let spec = Spec::parse(&text, "lens.toml", &models).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let scene = Scene::open(&spec).expect("the model is part of the project");
     let plan = Plan::new(&spec, &scene).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    cpu::Renderer::new(&scene, &plan).render(true, &|_| ())
+    cpu::Renderer::new(&scene, &plan).and_then(|cpu| cpu.render(true, &|_| ())).expect("the CPU draws it")
 }
 
 fn maps(frame: &Frame) -> &Aovs {

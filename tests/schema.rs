@@ -29,10 +29,12 @@ fn outside(schema: &Value) -> Vec<String> {
         schema[closed].as_f64().map(|end| end + step).or(schema[open].as_f64()).map(|value| value.to_string())
     };
     match schema["type"].as_str() {
-        Some("number" | "integer") => [beyond("minimum", "exclusiveMinimum", -1.0), beyond("maximum", "exclusiveMaximum", 1.0)]
-            .into_iter()
-            .flatten()
-            .collect(),
+        Some("number" | "integer") => {
+            [beyond("minimum", "exclusiveMinimum", -1.0), beyond("maximum", "exclusiveMaximum", 1.0)]
+                .into_iter()
+                .flatten()
+                .collect()
+        }
         Some("array") => outside(&schema["items"]).iter().filter_map(|value| list(schema, value)).collect(),
         _ => Vec::new(),
     }

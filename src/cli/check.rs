@@ -22,12 +22,16 @@ pub fn run(path: &Path, strict: bool) -> Result<(), InputError> {
         return Err(InputError::new(message).help("see the lines above"));
     }
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let at_least = if account.ended.is_some() { "at least " } else { "" };
     super::print(&format!(
-        "{}: good: {}, {}, {}\n",
+        "{}: good: {}, {at_least}{}, {}\n",
         spec.source.name,
         count(plan.lenses.len(), "lens").replace("lenss", "lenses"),
         count(account.regions.len(), "region"),
         count(findings, "warning"),
     ));
+    if let Some(ended) = &account.ended {
+        super::print(&format!("note: {ended}; undecided pairs were looked for in those\n"));
+    }
     Ok(())
 }

@@ -5,6 +5,7 @@ mod backend;
 #[cfg(feature = "gpu")]
 mod bench;
 mod check;
+mod excerpt;
 mod explain;
 mod filters;
 mod info;

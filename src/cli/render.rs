@@ -42,7 +42,7 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
         eprint!("{}", stages.text());
     }
     match &args.stats {
-        Some(path) => write_whole(path, stats(args, &plan, &choice, &stages).as_bytes()),
+        Some(path) => write_whole(path, stats(args, &plan, backend.name(), &choice, &stages).as_bytes()),
         None => Ok(()),
     }
 }
@@ -73,7 +73,7 @@ fn draw_view(
             return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)))
+    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
 }
 
 fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {
@@ -99,9 +99,9 @@ fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<(), InputE
     Ok(())
 }
 
-fn stats(args: &RenderArgs, plan: &Plan, choice: &str, stages: &Stages) -> String {
+fn stats(args: &RenderArgs, plan: &Plan, backend: &str, choice: &str, stages: &Stages) -> String {
     let engine = args.engine.and_then(|e| e.to_possible_value()).map_or("fused".into(), |e| e.get_name().to_string());
-    let (backend, reason) = choice.split_once(": ").unwrap_or((choice, ""));
+    let reason = choice.split_once(": ").map_or("", |(_, reason)| reason);
     let stats = serde_json::json!({
         "backend": backend,
         "reason": reason,

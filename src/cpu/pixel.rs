@@ -287,7 +287,13 @@ impl<'a> Tracer<'a> {
 
     /// Counts what lies in front of what is visible at each sample of the block traced last, in a [`Scratch::noting`];
     /// `nearest` is told of each sample's nearest surface.
-    pub fn count_in_front(&self, samples: usize, scratch: &Scratch, counts: &mut InFront, nearest: &mut Vec<Option<Region>>) {
+    pub fn count_in_front(
+        &self,
+        samples: usize,
+        scratch: &Scratch,
+        counts: &mut InFront,
+        nearest: &mut Vec<Option<Region>>,
+    ) {
         let mut removers = vec![LensSet::EMPTY; samples];
         let reports: Vec<PixelReport> = (0..samples).map(|sample| self.report(sample, scratch)).collect();
         for (ray, depth, by) in scratch.removed.iter().flatten() {

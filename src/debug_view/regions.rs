@@ -21,7 +21,11 @@ pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs) -> Frame {
         let region = aovs.table.get(index as usize).filter(|region| **region != Region::PLAIN)?;
         Some(colors.id(region)?.to_string())
     };
-    let legend = Legend::new("Regions", &["of the nearest surfaces that are", "left, opaque or not"], entries(plan, aovs, &colors));
+    let legend = Legend::new(
+        "Regions",
+        &["of the nearest surfaces that are", "left, opaque or not"],
+        entries(plan, aovs, &colors),
+    );
     Map { size: picture.size, values: &aovs.regions, color: &color, label: &label }.with_legend(&legend)
 }
 

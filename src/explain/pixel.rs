@@ -11,7 +11,7 @@ use crate::output::{Actor, Entry};
 use crate::pick::{NamedSurface, places};
 use crate::pixel::{Fragment, PixelReport, Removed, Survivor, cap_maker};
 use crate::plan::{LensSet, Plan, Reasons, Region, filter_name};
-use crate::scene::Scene;
+use crate::scene::{Scene, Selections};
 use crate::spec::{By, Filter, Matches, Spec};
 
 /// A pixel's report with all that its account needs. `Display` gives the text, `Serialize` the JSON.
@@ -109,6 +109,7 @@ impl PixelAccount<'_> {
         let depth = f64::from(fragment.depth);
         let around = self.report.layers.iter().rev().find(|start| start.depth <= depth);
         let around = around.map_or(LensSet::EMPTY, |start| start.set).minus(fragment.region.set);
+        let known = Selections::default();
         let because = |rank: usize| {
             let lens = &self.spec.lenses[self.plan.lenses[rank].index];
             let line = |matches: &Matches| {
@@ -116,9 +117,11 @@ impl PixelAccount<'_> {
                 self.spec.source.line(first.unwrap_or_default())
             };
             if !item.scope.contains(rank) && !item.shown_by.contains(rank) {
-                return Some(match item.subject(self.scene).is_in(&lens.except) {
+                return Some(match item.subject(self.scene, &known).is_in(&lens.except) {
                     true => format!("its `except` in line {} names this node or material", line(&lens.except)),
-                    false => format!("its `only` in line {} names neither this node nor its material", line(&lens.only)),
+                    false => {
+                        format!("its `only` in line {} names neither this node nor its material", line(&lens.only))
+                    }
                 });
             }
             let by_object = lens.by == By::Object && !item.object.contains(rank);

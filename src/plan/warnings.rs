@@ -1,8 +1,8 @@
 //! Patterns that match nothing, and what the models left out.
 
 use super::{Instance, Item, Lens, Rule};
-use crate::scene::{Model, Scene};
-use crate::spec::{At, By, Filter, Matches, Pattern, Spec};
+use crate::scene::{Model, Scene, nearest};
+use crate::spec::{At, By, Filter, Matches, Names, Pattern, Spec};
 
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
     let mut warnings: Vec<String> = scene.models.iter().flat_map(|m| m.warnings.iter().cloned()).collect();
@@ -11,18 +11,20 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
         warnings
             .push(format!("{}:{line}: `time` changes nothing: no node of the models is animated", spec.source.name));
     }
+    let (nodes_of_scene, nodes) = (scene.models[0].node_names(), node_names(&scene.models));
+    let materials = Names::new(scene.models.iter().flat_map(|m| &m.materials).map(|m| m.name.as_str()));
     let mut told = 0;
-    let mut check = |place: String, patterns: &[At<Pattern>], kind: Names| {
-        for pattern in patterns.iter().filter(|p| !kind.has(scene, &p.value)) {
+    let mut check = |place: String, patterns: &[At<Pattern>], names: &Names| {
+        for pattern in patterns.iter().filter(|p| !names.any(&p.value)) {
             let line = spec.source.line(pattern.span.start);
             told += 1;
-            let nearest = if told > MOST_NEAREST { None } else { kind.nearest(scene, &pattern.value) };
-            let help = nearest.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+            let near = if told > MOST_NEAREST { None } else { nearest(&pattern.value.0, names.iter()) };
+            let help = near.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
             warnings.push(format!("{}:{line}: {place} matches nothing: `{}`{help}", spec.source.name, pattern.value));
         }
     };
-    let (node, material) = (Names::Nodes, Names::Materials);
-    check("`hide`".into(), &spec.scene.hide, Names::NodesOfScene);
+    check("`hide`".into(), &spec.scene.hide, &nodes_of_scene);
+    let (node, material) = (&nodes, &materials);
     for lens in &spec.lenses {
         let name = &lens.name.value;
         for (key, Matches { nodes, materials }) in [("only", &lens.only), ("except", &lens.except)] {
@@ -45,34 +47,6 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
 
 /// For so many patterns that match nothing a name is looked for that may have been meant.
 const MOST_NEAREST: usize = 20;
-
-/// What a pattern is held against.
-#[derive(Clone, Copy)]
-enum Names {
-    NodesOfScene,
-    Nodes,
-    Materials,
-}
-
-impl Names {
-    fn has(self, scene: &Scene, pattern: &Pattern) -> bool {
-        match self {
-            Names::NodesOfScene => scene.models[0].has_node(pattern),
-            Names::Nodes => scene.models.iter().any(|model| model.has_node(pattern)),
-            Names::Materials => scene.models.iter().any(|model| model.has_material(pattern)),
-        }
-    }
-
-    /// The name most like a pattern, if any is near.
-    fn nearest<'s>(self, scene: &'s Scene, pattern: &Pattern) -> Option<&'s str> {
-        let of = |model: &'s Model| match self {
-            Names::Materials => model.nearest_material(&pattern.0),
-            _ => model.nearest_node(&pattern.0),
-        };
-        let models = if let Names::NodesOfScene = self { &scene.models[..1] } else { &scene.models[..] };
-        models.iter().find_map(of)
-    }
-}
 
 /// Lenses that mean nothing to what the scene draws.
 pub(super) fn of_reach(spec: &Spec, lenses: &[Lens], items: &[Item], instances: &[Instance]) -> Vec<String> {
@@ -144,4 +118,8 @@ pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Ite
 
 fn moves(scene: &Scene) -> bool {
     scene.models.iter().flat_map(|model| &model.animations).any(|animation| !animation.channels.is_empty())
+}
+
+fn node_names(models: &[Model]) -> Names<'_> {
+    Names::new(models.iter().flat_map(|model| &model.nodes).map(|node| node.name.as_str()))
 }

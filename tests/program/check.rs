@@ -66,7 +66,10 @@ fn names_that_may_have_been_meant_are_told() {
     let lens = "[[lens]]\nname = 'a'\nshape.sphere = { center = [0, 0, 0], radius = 1 }\n\
         filters = [{ erase = { nodes = ['cube-1-1'] } }]\nonly = { materials = ['corral', 'zzz'] }\n";
     let out = check_cubes("check-meant", lens);
-    assert!(out.contains("spec.toml:6: `erase` of lens `a` matches nothing: `cube-1-1`; did you mean `cube-1-1-"), "{out}");
+    assert!(
+        out.contains("spec.toml:6: `erase` of lens `a` matches nothing: `cube-1-1`; did you mean `cube-1-1-"),
+        "{out}"
+    );
     assert!(out.contains("`only` of lens `a` matches nothing: `corral`; did you mean `coral`?"), "{out}");
     assert!(out.contains("`zzz`\n"), "{out}");
     assert!(out.contains("spec.toml:4: lens `a` acts on nothing"), "{out}");

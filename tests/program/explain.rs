@@ -70,7 +70,12 @@ fn what_is_taken_away_and_seen_through_is_counted() {
     let text = call(&["explain", &spec]).good();
     let line = |name: &str| {
         let order = text.split(&format!(". {name} (")).nth(1).unwrap_or_else(|| panic!("{text}"));
-        order.split("in view: ").nth(1).and_then(|rest| rest.lines().next()).unwrap_or_else(|| panic!("{text}")).to_owned()
+        order
+            .split("in view: ")
+            .nth(1)
+            .and_then(|rest| rest.lines().next())
+            .unwrap_or_else(|| panic!("{text}"))
+            .to_owned()
     };
     assert!(line("open").starts_with("takes something away in "), "{text}");
     assert!(line("pale").starts_with("on what is seen through in "), "{text}");

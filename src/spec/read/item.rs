@@ -124,7 +124,11 @@ impl<'a> Item<'a> {
     }
 
     /// What a reader makes of each element; faults are noted, and those elements left out.
-    pub fn each<T>(&self, wanted: &str, read: impl Fn(&Item<'a>) -> Result<T, InputError>) -> Result<Vec<T>, InputError> {
+    pub fn each<T>(
+        &self,
+        wanted: &str,
+        read: impl Fn(&Item<'a>) -> Result<T, InputError>,
+    ) -> Result<Vec<T>, InputError> {
         let read = |item: Item<'a>| read(&item).map_err(|error| self.file.note(error)).ok();
         Ok(self.list(wanted)?.into_iter().filter_map(read).collect())
     }

@@ -6,6 +6,7 @@ use super::item::Item;
 use super::table::Table;
 use super::{filter, keys, shape};
 use crate::InputError;
+use crate::limits::MAX_NAME;
 use crate::spec::{At, Attach, By, Glass, LensSpec, Matches, NumberRange, OverlapMode, Pattern};
 
 pub fn read(item: &Item) -> Result<LensSpec, InputError> {
@@ -45,6 +46,11 @@ pub fn is_name_char(c: char) -> bool {
 
 fn name(item: &Item) -> Result<At<String>, InputError> {
     let text = item.text()?;
+    if text.len() > MAX_NAME {
+        let message =
+            format!("a lens name has at most {MAX_NAME} characters, and this one has {}", text.chars().count());
+        return Err(item.error(message).help("give it a shorter name"));
+    }
     match text.chars().find(|c| !is_name_char(*c)) {
         None => Ok(item.at(text.to_owned())),
         Some(c) => Err(item
@@ -118,9 +124,9 @@ fn glass(item: &Item) -> Result<Option<Glass>, InputError> {
     let width = NumberRange::closed(0.0, 1000.0);
     Ok(Some(Glass {
         color: table.read("color", Item::color).unwrap_or(default.color),
-        opacity: number("opacity", NumberRange::UNIT)?.unwrap_or(default.opacity),
-        rim: number("rim", NumberRange::UNIT)?.unwrap_or(default.rim),
-        outline: number("outline", width)?.unwrap_or(default.outline),
-        contact: number("contact", width)?.unwrap_or(default.contact),
+        opacity: number("opacity", NumberRange::UNIT).unwrap_or(default.opacity),
+        rim: number("rim", NumberRange::UNIT).unwrap_or(default.rim),
+        outline: number("outline", width).unwrap_or(default.outline),
+        contact: number("contact", width).unwrap_or(default.contact),
     }))
 }
