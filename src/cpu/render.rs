@@ -1,5 +1,7 @@
 //! A whole picture, tile by tile.
 
+mod in_front;
+
 use glam::Vec4;
 use rayon::prelude::*;
 

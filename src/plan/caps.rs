@@ -129,7 +129,10 @@ fn with_edges(name: &str, edges: &Edges) -> String {
 fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)> {
     let (filters, name) = match lenses.get(rank) {
         Some(lens) => (&spec.lenses[lens.index].filters, format!("lens `{}`", lens.name)),
-        None => (&spec.overlaps[rank - lenses.len()].filters, format!("overlap rule {}", rank - lenses.len())),
+        None => {
+            let rule = &spec.overlaps[rank - lenses.len()];
+            (&rule.filters, format!("the rule in line {}", spec.source.line(rule.when.span.start)))
+        }
     };
     let has_cap = |filter: &&At<Filter>| matches!(filter.value, Filter::Erase { cap: Some(_), .. });
     let line = spec.source.line(filters.iter().find(has_cap)?.span.start);

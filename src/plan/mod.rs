@@ -122,6 +122,7 @@ impl Plan {
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene)?;
+        warnings.extend(warnings::of_reach(spec, &lenses, &items, &instances));
         Ok(Self {
             scene: scene.id,
             samples: spec.image.samples,

@@ -25,7 +25,7 @@ pub use closed::{Closure, ClosureCache, Enclosing};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
-pub(crate) use names::{Selections, Subject};
+pub(crate) use names::{Selections, Subject, nearest};
 pub use open::{Scene, SceneId};
 pub use pose::Transform;
 pub use simplified::Simplified;
