@@ -10,7 +10,7 @@ use crate::debug_view::{self, DebugView, Row};
 use crate::frame::Frame;
 use crate::output::{write_aov, write_picture, write_whole};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{OpenOptions, Scene};
 use crate::spec::Spec;
 
 pub fn run(args: &RenderArgs) -> Result<(), InputError> {
@@ -23,7 +23,7 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     // A device takes as long to open as many a scene.
     let (opened, device) = std::thread::scope(|scope| {
         let device = scope.spawn(|| backend::choose(args.backend));
-        (open(&spec, &mut stages), stages.time("device", || device.join()))
+        (open(&spec, &args.open.options(), &mut stages), stages.time("device", || device.join()))
     });
     let (scene, plan) = opened?;
     for warning in &plan.warnings {
@@ -47,8 +47,8 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     }
 }
 
-fn open(spec: &Spec, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
-    let scene = stages.time("scene", || Scene::open(spec))?;
+fn open(spec: &Spec, options: &OpenOptions, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
+    let scene = stages.time("scene", || Scene::open_with(spec, options))?;
     let plan = stages.time("plan", || Plan::new(spec, &scene))?;
     Ok((scene, plan))
 }
@@ -73,7 +73,7 @@ fn draw_view(
             return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs))
+    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
 }
 
 fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {

@@ -149,13 +149,13 @@ impl Volume {
         self.tree.holds(&|part| self.parts[part].contains(p))
     }
 
-    /// World bounds; unlimited where a flat lens makes them so.
+    /// World bounds; unlimited where flat lenses, half-spaces or slabs make them so.
     pub fn bounds(&self) -> Aabb {
         let algebra = Algebra { union: Aabb::union, intersection: Aabb::intersection, difference: |a, _| a };
         self.tree.fold(&algebra, &|part| self.parts[part].bounds()).unwrap_or(Aabb::EMPTY)
     }
 
-    /// World points whose convex hull holds the volume or, where it has flat parts, what those are seen through.
+    /// World points whose convex hull holds what is bounded of the volume and what its flat parts are seen through.
     pub fn hull(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.tree.added_parts().into_iter().flat_map(|part| self.parts[part].hull.iter().copied())
     }

@@ -4,17 +4,39 @@ use super::{Lens, LensSet, Rule, instances};
 use glam::{DAffine3, DVec3};
 
 use crate::InputError;
+use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
 use crate::scene::{Aabb, Model, Primitive, Scene, Selections, Subject};
-use crate::spec::{At, By, Cap, Filter, Names, Pattern, ShowWhat, Spec, lod};
+use crate::spec::{At, By, Cap, Filter, Pattern, PatternSet, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Content {
     /// Into [`Scene::models`].
     pub model: usize,
-    /// Patterns of the nodes it has; `None`: what the model draws.
-    pub nodes: Option<Vec<Pattern>>,
+    /// What of the model it has; `None`: all that the model draws.
+    pub only: Option<Selection>,
+}
+
+/// Some of a model, by names: what matches one of the patterns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selection {
+    pub nodes: Vec<Pattern>,
+    pub materials: Vec<Pattern>,
+}
+
+impl Selection {
+    fn new(nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> Self {
+        let patterns = |list: &[At<Pattern>]| list.iter().map(|p| p.value.clone()).collect();
+        Self { nodes: patterns(nodes), materials: patterns(materials) }
+    }
+
+    /// For each node and for each material of a model whether it is selected.
+    fn masks(&self, model: &Model) -> (Vec<bool>, Vec<bool>) {
+        let materials = PatternSet::new(&self.materials);
+        let of_materials = model.materials.iter().map(|material| materials.matches(&material.name));
+        (model.nodes_matching(&self.nodes), of_materials.collect())
+    }
 }
 
 /// One primitive of one node of one content, or a simplified version of it.
@@ -89,7 +111,7 @@ impl Item {
     }
 
     /// What name patterns are held against.
-    pub(super) fn subject<'a>(&self, scene: &'a Scene, known: &'a Selections<'a>) -> Subject<'a> {
+    pub(crate) fn subject<'a>(&self, scene: &'a Scene, known: &'a Selections<'a>) -> Subject<'a> {
         let material = self.material - scene.material_base[self.model];
         Subject { model: &scene.models[self.model], node: self.node, material, known }
     }
@@ -111,13 +133,21 @@ pub(super) fn collect(
     let mut first_triangle: u64 = 0;
     for (content_index, content) in contents.iter().enumerate() {
         let model = &scene.models[content.model];
-        let is_part = parts(spec, model, content_index, content);
+        let is_drawn = drawn(spec, model, content_index);
+        let selected = content.only.as_ref().map(|only| only.masks(model));
         for node in 0..model.nodes.len() {
-            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_part[node]) else { continue };
+            let is_named = || selected.as_ref().is_some_and(|(nodes, _)| nodes[node]);
+            let is_there = is_drawn[node] && (!model.nodes[node].hidden || is_named());
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_there) else { continue };
             let bounds = model.primitive_bounds(node);
             let center = model.node_bounds(node).center();
             for (index, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
                 if primitive.triangles.is_empty() {
+                    continue;
+                }
+                let is_selected =
+                    |(nodes, materials): &(Vec<bool>, Vec<bool>)| nodes[node] || materials[primitive.material];
+                if !selected.as_ref().is_none_or(is_selected) {
                     continue;
                 }
                 let material = scene.material_base[content.model] + primitive.material;
@@ -276,59 +306,67 @@ impl<'a> Relation<'a> {
 
 fn content(what: &ShowWhat, scene: &Scene) -> Content {
     match what {
-        ShowWhat::Alternate(name) => Content {
-            model: 1 + scene.alternates.iter().position(|a| *a == name.value).unwrap_or_default(),
-            nodes: None,
+        ShowWhat::Alternate { name, only } => Content {
+            model: model_of(name, scene),
+            only: (!only.is_empty()).then(|| Selection::new(&only.nodes, &only.materials)),
         },
-        ShowWhat::Nodes(patterns) => {
-            Content { model: 0, nodes: Some(patterns.iter().map(|p| p.value.clone()).collect()) }
-        }
+        ShowWhat::Nodes(patterns) => Content { model: 0, only: Some(Selection::new(patterns, &[])) },
     }
+}
+
+/// Into [`Scene::models`].
+fn model_of(alternate: &At<String>, scene: &Scene) -> usize {
+    1 + scene.alternates.iter().position(|known| *known == alternate.value).unwrap_or_default()
 }
 
 /// The scene, then what the enabled lenses show: alternates in their order, then node lists as they come.
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
-    let mut contents = vec![Content { model: 0, nodes: None }];
+    let mut contents = vec![Content { model: 0, only: None }];
     let mut shown: Vec<Content> = Vec::new();
+    let mut faults = Faults::default();
     let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
     let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
     for (enabled, filter) in of_lenses.chain(of_rules) {
         let Filter::Show(what) = &filter.value else { continue };
-        if let ShowWhat::Nodes(patterns) = what {
-            check_shown_nodes(spec, &scene.models[0], patterns)?;
-        }
+        check_shown(spec, scene, what, &mut faults);
         if enabled {
             shown.push(content(what, scene));
         }
     }
+    faults.finish()?;
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
     for content in shown {
-        if !contents.contains(&content) || (content.nodes.is_none() && content.model == 0) {
+        if !contents.contains(&content) {
             contents.push(content);
         }
     }
     Ok(contents)
 }
 
-fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Result<(), InputError> {
-    let names = Names::new(model.nodes.iter().map(|node| node.name.as_str()));
-    for pattern in patterns {
-        if !names.any(&pattern.value) {
-            let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
-            return Err(InputError::at(&spec.source, pattern.span.clone(), message)
-                .help(model.nearest_node_name(&pattern.value.0)));
+/// What `show` names must be there.
+fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat, faults: &mut Faults) {
+    let (model, nodes, materials) = match what {
+        ShowWhat::Alternate { name, only } => {
+            (&scene.models[model_of(name, scene)], only.nodes.as_slice(), only.materials.as_slice())
         }
+        ShowWhat::Nodes(nodes) => (&scene.models[0], nodes.as_slice(), &[][..]),
+    };
+    let mut refuse = |what: &str, pattern: &At<Pattern>, help: String| {
+        let message = format!("`show` finds no {what} of `{}` that matches `{}`", model.name, pattern.value);
+        faults.note(InputError::at(&spec.source, pattern.span.clone(), message).help(help));
+    };
+    let (of_nodes, of_materials) = (model.node_names(), model.material_names());
+    for pattern in nodes.iter().filter(|p| !of_nodes.any(&p.value)) {
+        refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
     }
-    Ok(())
+    for pattern in materials.iter().filter(|p| !of_materials.any(&p.value)) {
+        refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
+    }
 }
 
-/// For each node whether a content draws it.
-fn parts(spec: &Spec, model: &Model, index: usize, content: &Content) -> Vec<bool> {
-    let (patterns, wanted): (Vec<&Pattern>, bool) = match &content.nodes {
-        Some(patterns) => (patterns.iter().collect(), true),
-        None if index == 0 => (spec.scene.hide.iter().map(|pattern| &pattern.value).collect(), false),
-        None => (Vec::new(), false),
-    };
-    let matched = model.nodes_matching(patterns);
-    model.nodes.iter().zip(matched).map(|(node, matched)| node.drawn && matched == wanted).collect()
+/// For each node whether a content may have it: its model draws it, and the spec does not hide it.
+fn drawn(spec: &Spec, model: &Model, content: usize) -> Vec<bool> {
+    let hide = if content == 0 { spec.scene.hide.as_slice() } else { &[] };
+    let hidden = model.nodes_matching(hide.iter().map(|pattern| &pattern.value));
+    model.nodes.iter().zip(hidden).map(|(node, hidden)| node.drawn && !hidden).collect()
 }

@@ -188,7 +188,7 @@ pub enum ToneMapping {
 }
 
 /// Name patterns for nodes and materials.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matches {
     pub nodes: Vec<At<Pattern>>,
     pub materials: Vec<At<Pattern>>,
@@ -417,8 +417,13 @@ pub enum Cap {
 /// What `show` puts in place of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShowWhat {
-    /// A name under `[scene.alternates]`.
-    Alternate(At<String>),
+    Alternate {
+        /// Under `[scene.alternates]`.
+        name: At<String>,
+        /// What of it; empty: all.
+        only: Matches,
+    },
+    /// Of the scene.
     Nodes(Vec<At<Pattern>>),
 }
 
