@@ -13,8 +13,8 @@ use super::screen::{self, Plane};
 use crate::InputError;
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, NoMemory, RegionTable, check_memory, filled};
-use crate::limits::FILTER_ITERATIONS;
 use crate::lens::{LayerStart, PixelRect, RayLayers};
+use crate::limits::FILTER_ITERATIONS;
 use crate::pick::Pick;
 use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
@@ -236,12 +236,7 @@ impl<'a> Renderer<'a> {
     }
 
     /// All tiles of a band.
-    fn tiles(
-        &self,
-        band: PixelRect,
-        wanted: Wanted,
-        done: &(dyn Fn(u64) + Sync),
-    ) -> Result<Vec<TileResult>, Error> {
+    fn tiles(&self, band: PixelRect, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Result<Vec<TileResult>, Error> {
         let side = if wanted.colors { self.samples_along() } else { 1 };
         tiles_of(&band, (BLOCK / side).max(1))
             .into_par_iter()

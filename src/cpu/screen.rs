@@ -292,7 +292,8 @@ mod tests {
     }
 
     fn colors(random: &mut Random, count: usize) -> Vec<Weighed> {
-        let color = |_| if random.next() % 3 == 0 { (Vec4::ZERO, 0.0) } else { (Vec4::splat(random.next() as f32), 1.0) };
+        let color =
+            |_| if random.next() % 3 == 0 { (Vec4::ZERO, 0.0) } else { (Vec4::splat(random.next() as f32), 1.0) };
         (0..count).map(color).collect()
     }
 
@@ -327,7 +328,11 @@ mod tests {
                 let cell = |at: usize| (at + first[axis]) / side;
                 f32::from(u8::from(cell(at) == cell(other)))
             };
-            assert_eq!(cell_sums(&all, width, side, first[0], first[1]), plain(&all, width, weight), "{side} {first:?}");
+            assert_eq!(
+                cell_sums(&all, width, side, first[0], first[1]),
+                plain(&all, width, weight),
+                "{side} {first:?}"
+            );
         }
     }
 
@@ -338,10 +343,13 @@ mod tests {
         for reach in [0, 1, 3, 50] {
             let marks: Vec<bool> = (0..width * height).map(|_| random.next() % 37 == 0).collect();
             let nearest = |place: usize| {
-                let away = |other: usize| [place % width, place / width].map(|at| at as i64)
-                    .into_iter()
-                    .zip([other % width, other / width])
-                    .map(|(at, other)| (at - other as i64).abs());
+                let away = |other: usize| {
+                    [place % width, place / width]
+                        .map(|at| at as i64)
+                        .into_iter()
+                        .zip([other % width, other / width])
+                        .map(|(at, other)| (at - other as i64).abs())
+                };
                 let near = (0..marks.len()).filter(|other| marks[*other] && away(*other).all(|away| away <= reach));
                 near.map(|other| away(other).map(|away| away * away).sum::<i64>() as u32).min().unwrap_or(FAR)
             };

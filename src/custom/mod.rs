@@ -153,7 +153,8 @@ impl Custom {
     pub(crate) fn surface_spending(&self, surface: &SurfaceValue, words: &[u32], spent: &mut u32) -> SurfaceValue {
         let Some(entry) = &self.surface else { return *surface };
         let numbers: [u32; SURFACE_WORDS] = bytemuck::cast(*surface);
-        self.program.call(entry, &[&numbers, words], spent, |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
+        self.program
+            .call(entry, &[&numbers, words], spent, |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
     }
 
     /// `filter_color` of a lit colour in linear light; the colour itself where the file has no such function.
@@ -171,8 +172,9 @@ impl Custom {
     ) -> [f32; 3] {
         let Some(entry) = &self.color else { return color };
         let (color, numbers): ([u32; 3], [u32; SURFACE_WORDS]) = (bytemuck::cast(color), bytemuck::cast(*surface));
-        self.program
-            .call(entry, &[&color, &numbers, words], spent, |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
+        self.program.call(entry, &[&color, &numbers, words], spent, |result| {
+            *bytemuck::from_bytes(bytemuck::cast_slice(result))
+        })
     }
 }
 

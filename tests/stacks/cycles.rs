@@ -57,7 +57,11 @@ fn exactly_the_graphs_with_a_cycle_are_refused() {
                 assert_eq!(!warnings.is_empty(), has_cycle(case.lenses.len(), &all), "{}", case.toml());
                 for warning in &warnings {
                     let (disabled, _) = warning.split_once(" enabled, ").expect("it says who is disabled");
-                    let names = disabled.rsplit("once ").next().unwrap_or_default().trim_end_matches([' ', 'i', 's', 'a', 'r', 'e']);
+                    let names = disabled
+                        .rsplit("once ")
+                        .next()
+                        .unwrap_or_default()
+                        .trim_end_matches([' ', 'i', 's', 'a', 'r', 'e']);
                     let is_disabled = |name: &str| case.lenses.iter().any(|lens| lens.name == name && !lens.enabled);
                     assert!(names.split(", ").all(is_disabled), "{warning}\n{}", case.toml());
                     assert!(warning.contains("goes in a circle: "), "{warning}");

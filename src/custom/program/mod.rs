@@ -160,13 +160,7 @@ thread_local! {
 impl Program {
     /// Calls a function with the words of its arguments; `read` sees the words of its result.
     /// `spent` grows by the fuel that it took.
-    pub fn call<T>(
-        &self,
-        entry: &Entry,
-        arguments: &[&[u32]],
-        spent: &mut u32,
-        read: impl FnOnce(&[u32]) -> T,
-    ) -> T {
+    pub fn call<T>(&self, entry: &Entry, arguments: &[&[u32]], spent: &mut u32, read: impl FnOnce(&[u32]) -> T) -> T {
         MEMORY.with_borrow_mut(|memory| {
             memory.clear();
             memory.extend_from_slice(&self.image);
