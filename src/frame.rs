@@ -30,8 +30,8 @@ pub struct Aovs {
     pub triangles: Vec<u32>,
     /// Node index in its file plus one; 0 where nothing is.
     pub nodes: Vec<u32>,
-    /// Along the forward axis, scene units; infinite where nothing is.
-    pub depth: Vec<f32>,
+    /// From the eye along the forward axis, scene units; infinite where nothing is.
+    pub depth: Vec<f64>,
     /// World space; zero where nothing is.
     pub normals: Vec<[f32; 3]>,
     /// One more than the distinct lens boundaries between near and far.
@@ -48,7 +48,7 @@ impl Aovs {
             instances: vec![NOTHING; count],
             triangles: vec![NOTHING; count],
             nodes: vec![0; count],
-            depth: vec![f32::INFINITY; count],
+            depth: vec![f64::INFINITY; count],
             normals: vec![[0.0; 3]; count],
             layers: vec![1; count],
         }

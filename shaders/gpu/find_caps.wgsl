@@ -12,7 +12,8 @@ struct CutVarying {
 fn cut_vertex(@location(0) local: vec3f, shown: Shown, @builtin(instance_index) item: u32) -> CutVarying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    return CutVarying(clip_position(p, depth, 0.5), item, depth);
+    let z = select(0.5, 1.0, frame.perspective != 0u);
+    return CutVarying(clip_position(p, depth, z), item, depth);
 }
 
 @fragment

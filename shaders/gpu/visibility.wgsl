@@ -17,14 +17,14 @@ fn vertex(
 ) -> Varying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    let position = clip_position(p, depth, drawn_depth(depth));
+    let position = clip_position(p, depth, place_between_planes(depth));
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
     return Varying(position, item, vertex - shown.base_vertex, depth);
 }
 
-// Reverse-Z: infinite far plane in perspective, linear otherwise.
+// Reverse-Z over what there is to be drawn: 1 to 0, linear for an orthographic camera.
 fn drawn_depth(depth: f32) -> f32 {
-    return select((frame.far - depth) / (frame.far - frame.near), frame.near / depth, frame.perspective != 0u);
+    return place_between_planes(depth) * select(1.0, frame.drawn_from_eye / (frame.anchor + depth), frame.perspective != 0u);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.

@@ -216,11 +216,14 @@ impl<'a> Lenses<'a> {
     }
 }
 
-/// How far boundaries that merge, and drawn depths, may be off around bounds: such a share of the depth, along the ray
-/// that is longest for its depth.
+/// How far boundaries that merge, and drawn depths, may be off around bounds: some times what merges, and a share of the
+/// depth, along the ray that is longest for its depth.
 fn margin(view: &View, bounds: &Aabb) -> f64 {
-    let depths = bounds.corners().map(|p| view.depth(p).abs());
-    4e-5 * view.ray(0.0, 0.0).direction.length() * depths.into_iter().fold(view.far.abs(), f64::max)
+    let off = |p: DVec3| {
+        let depth = view.depth(p);
+        (4.0 * view.anchor.merging.at(depth)).max(2e-5 * (depth.abs() + view.anchor.merging.across))
+    };
+    view.ray(0.0, 0.0).direction.length() * bounds.corners().map(off).into_iter().fold(0.0, f64::max)
 }
 
 fn padded(view: &View, bounds: &Aabb) -> Aabb {

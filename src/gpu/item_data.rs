@@ -51,8 +51,8 @@ impl ItemData {
 }
 
 fn step_record(plan: &Plan, step: &Step) -> StepRecord {
-    let eye = DAffine3::from_translation(plan.view.eye);
-    let [row_x, row_y, row_z] = rows(&(eye.inverse() * step.source_from_shown * eye));
+    let origin = DAffine3::from_translation(plan.view.origin());
+    let [row_x, row_y, row_z] = rows(&(origin.inverse() * step.source_from_shown * origin));
     StepRecord { row_x, row_y, row_z, rank: step.rank as u32, pad: [0; 3] }
 }
 
@@ -60,7 +60,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
     let item = &plan.items[instance.item];
     let (range, _) = uploaded.primitive(item);
     let mut around = shown_from_local(scene, item, instance);
-    around.translation -= plan.view.eye;
+    around.translation += around.matrix3 * range.middle.as_dvec3() - plan.view.origin();
     let [row_x, row_y, row_z] = rows(&around);
     ItemRecord {
         row_x,
@@ -79,7 +79,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         uv0: range.uv[0],
         uv1: range.uv[1],
         slots: texture_slots(&scene.materials[item.material]),
-        center: (item.center - plan.view.eye).as_vec3().to_array(),
+        center: (item.center - plan.view.origin()).as_vec3().to_array(),
         first_step: 0,
         step_count: instance.steps.len() as u32,
         body: NONE,

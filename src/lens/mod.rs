@@ -25,4 +25,3 @@ pub use solid::Solid;
 pub use tree::{MAX_PARTS, Tree};
 pub use volume::{Boundary, Interval, Volume};
 
-pub(crate) use layers::starts_boundary;

@@ -77,7 +77,7 @@ impl Solid {
         let size = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1]));
         let projected: Option<Vec<DVec2>> = self.hull.iter().map(|p| view.project(*p)).collect();
         let (min, max) = match projected {
-            Some(points) if nearest > 0.0 || !view.is_perspective() => {
+            Some(points) if view.from_eye(nearest) > 0.0 || !view.is_perspective() => {
                 points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)))
             }
             _ => (DVec2::ZERO, size),

@@ -21,22 +21,23 @@ impl Shader<'_> {
         // Its lines lie where it is cut.
         let source = instance.source_from_shown(maker, false);
         let space = &self.plan.texture_space;
-        let mapped = source.transform_point3(position.as_dvec3() + self.plan.view.eye) - space.origin.as_dvec3();
+        let mapped = source.transform_point3(position.as_dvec3() + self.origin) - space.origin;
         let direction = g3(wgsl::cap_direction(v3(normal), cap.variant));
         let along = direction.dot(mapped.as_vec3() * space.scale);
         let reach = source.matrix3.x_axis.length() as f32 * space.scale;
         let span = wgsl::cap_span(*ray, v3(position), v3(normal), v3(direction)) * reach;
         let mut stack = fragment.region.stack;
         stack.remove(maker);
-        let corners = self.piece(item, position, normal);
+        let corners = self.piece(item, ray, fragment.depth, normal);
         let weights = Vec3::X;
         let hit = Hit { instance, corners: &corners, weights, position, normal, ray };
         self.staged(wgsl::cap_surface(cap, own, along, span), &hit, stack, passed)
     }
 
     /// A triangle in a cap's plane, its first corner where a ray meets it.
-    fn piece(&self, item: &Item, position: Vec3, normal: Vec3) -> Corners<'_> {
-        let size = wgsl::CAP_PIECE.0 * position.length();
+    fn piece(&self, item: &Item, ray: &wgsl::PixelRay, depth: f32, normal: Vec3) -> Corners<'_> {
+        let position = g3(ray.origin) + g3(ray.direction) * depth;
+        let size = wgsl::cap_piece(*ray, depth);
         let corner = |number| g3(wgsl::cap_corner(number, v3(position), v3(normal), size));
         let primitive = &self.scene.models[item.model].meshes[item.mesh].primitives[item.primitive];
         Corners { primitive, indices: [0; 3], around: [0, 1, 2].map(corner), is_of_cap: true }
