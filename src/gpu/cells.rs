@@ -311,6 +311,7 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::view::{Anchor, Projection};
 
     const SQUARE: (DVec2, f64) = (DVec2::new(8.0, 8.0), 8.0);
 
@@ -351,6 +352,20 @@ mod tests {
         assert_eq!(lists[3], [&[9][..], &[], &[], &[]]);
     }
 
+    fn some_view() -> View {
+        View {
+            eye: DVec3::ZERO,
+            right: DVec3::X,
+            up: DVec3::Y,
+            forward: DVec3::NEG_Z,
+            projection: Projection::Perspective { tan_half_y: 0.5 },
+            anchor: Anchor::default(),
+            near: 0.1,
+            far: 10.0,
+            size: [64, 64],
+        }
+    }
+
     #[test]
     fn triangles_are_functions_of_the_point() {
         let points = [[10.0, 10.0], [30.0, 12.0], [14.0, 40.0], [35.0, 35.0]].map(DVec2::from_array);
@@ -365,7 +380,7 @@ mod tests {
             is_mesh: true,
         };
         let window = Window { min: [100, 200], size: [64, 64] };
-        let mesh = ProjectedMesh::new(&faces, &triangles, true, &window);
+        let mesh = ProjectedMesh::new(&faces, &triangles, &some_view(), &window);
         let value = |v: &[f32; 4], p: DVec2| f64::from(v[0]) * p.x + f64::from(v[1]) * p.y + f64::from(v[2]);
         for (vectors, corners) in mesh.vectors.chunks_exact(4).zip(triangles) {
             for (i, corner) in corners.map(|corner| corner as usize).into_iter().enumerate() {
