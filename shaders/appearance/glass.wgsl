@@ -32,16 +32,26 @@ fn depth_gradient(ray: PixelRay, n: vec3f, depth: f32) -> vec2f {
     return vec2f(along_x, along_y);
 }
 
-// Pixels from the silhouette of a convex volume, to first order: where the entry and the exit meet.
+// Beyond this depth a half-space has no end: the square of a depth must fit.
+const NO_END: f32 = 1e18;
+
+// Pixels from the silhouette of a convex volume, to first order: where the entry and the exit meet; of a half-space, the
+// horizon of its plane, where inverse depths are zero.
 // The inverse depths of a plane are linear over the picture; where entry and exit lie on one smooth
 // surface their difference falls like a square root, which doubles the distance. `eye`: how far the eye is before the
 // anchor.
 fn silhouette_distance(ray: PixelRay, eye: f32, entry: f32, entry_normal: vec3f, exit: f32, exit_normal: vec3f, smooth_join: u32) -> f32 {
     // Of an orthographic camera depths themselves are. What follows are differences of inverse depths times both depths.
     let perspective = dot(ray.direction_dx, ray.direction_dx) > 0.0;
-    let end = min(exit, 1e18);
+    if !perspective && (exit > NO_END || entry < -NO_END) {
+        return NO_END;
+    }
+    let end = min(exit, NO_END);
     let ratio = select(1.0, max(end + eye, 1e-20) / max(entry + eye, 1e-20), perspective);
-    let slope = depth_gradient(ray, entry_normal, entry) * ratio - depth_gradient(ray, exit_normal, end) / ratio;
+    var slope = depth_gradient(ray, entry_normal, entry) * ratio;
+    if exit < NO_END {
+        slope -= depth_gradient(ray, exit_normal, end) / ratio;
+    }
     let distance = (end - entry) / max(length(slope), 1e-20);
     return select(distance, 0.5 * distance, smooth_join != 0u);
 }

@@ -23,7 +23,7 @@ impl Opened {
         spec.image.size = args.size.unwrap_or(spec.image.size);
         // Only pixel centres are looked at.
         spec.image.samples = 1;
-        let scene = Scene::open(&spec)?;
+        let scene = Scene::open_with(&spec, &args.open.options())?;
         let plan = Plan::new(&spec, &scene)?;
         Ok(Self { spec, scene, plan })
     }

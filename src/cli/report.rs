@@ -1,10 +1,13 @@
 //! An [`InputError`] with the lines of the file it points into.
 
 use std::fmt;
+use std::ops::Range;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 
+use super::excerpt::Excerpt;
 use crate::InputError;
+use crate::error::shortened;
 
 /// The error as a block of text, at most `width` columns wide; colours only where the terminal shows them.
 pub fn report(error: &InputError, width: usize, color: bool) -> String {
@@ -22,18 +25,23 @@ pub fn report(error: &InputError, width: usize, color: bool) -> String {
 struct Report<'a> {
     error: &'a InputError,
     source: Option<NamedSource<String>>,
+    labels: Vec<(Range<usize>, String)>,
 }
 
 impl<'a> Report<'a> {
     fn new(error: &'a InputError) -> Self {
-        let named = |source: &crate::spec::Source| NamedSource::new(&source.name, source.text.to_string());
-        Self { error, source: error.source_text.as_ref().map(named) }
+        let places: Vec<Range<usize>> = error.labels.iter().map(|(place, _)| place.clone()).collect();
+        let excerpt = error.source_text.as_ref().map(|source| (source, Excerpt::new(&source.text, &places)));
+        let place = |place: &Range<usize>| excerpt.as_ref().map_or(place.clone(), |(_, excerpt)| excerpt.place(place));
+        let labels = error.labels.iter().map(|(own, text)| (place(own), shortened(text).into_owned())).collect();
+        let source = excerpt.map(|(source, excerpt)| NamedSource::new(&source.name, excerpt.text));
+        Self { error, source, labels }
     }
 }
 
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.error.message)
+        f.write_str(&shortened(&self.error.message))
     }
 }
 
@@ -41,7 +49,7 @@ impl std::error::Error for Report<'_> {}
 
 impl Diagnostic for Report<'_> {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.error.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.error.help.as_ref().map(|help| Box::new(shortened(help)) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -52,6 +60,6 @@ impl Diagnostic for Report<'_> {
         let label = |(span, text): &(std::ops::Range<usize>, String)| {
             LabeledSpan::new(Some(text.clone()), span.start, span.end.saturating_sub(span.start))
         };
-        Some(Box::new(self.error.labels.iter().map(label)))
+        Some(Box::new(self.labels.iter().map(label)))
     }
 }

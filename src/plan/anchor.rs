@@ -64,7 +64,7 @@ fn quantile(sights: &[Sight], share: f64) -> Option<f64> {
 fn sights(view: &View, scene: &Scene) -> Vec<Sight> {
     let mut primitives: Vec<(&Primitive, DAffine3)> = Vec::new();
     for model in &scene.models {
-        let drawn = model.nodes.iter().filter(|node| node.drawn);
+        let drawn = model.nodes.iter().filter(|node| node.is_shown());
         primitives.extend(drawn.flat_map(|node| {
             let own = node.mesh.map_or(&[][..], |mesh| &model.meshes[mesh].primitives);
             own.iter().map(move |primitive| (primitive, node.world_from_local))

@@ -4,6 +4,7 @@
 
 mod animation;
 mod bounds;
+mod budget;
 mod closed;
 mod lens_meshes;
 mod load;
@@ -18,12 +19,14 @@ mod vertex_values;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
+pub(crate) use budget::TO_TAKE_LESS;
+pub use budget::{Budget, OpenOptions};
 pub use closed::{Closure, ClosureCache};
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
-pub(crate) use names::Subject;
-pub use open::Scene;
+pub(crate) use names::{Selections, Subject};
+pub use open::{Scene, SceneId};
 pub use pose::Transform;
 pub use simplified::Simplified;
 pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet, decode_table};

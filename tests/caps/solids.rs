@@ -32,6 +32,7 @@ pub fn planned(parts: Vec<Part>, side: u32, camera: &str, lenses: &str) -> Opene
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         });
         model.meshes.push(Mesh { name: name.into(), primitives });
     }

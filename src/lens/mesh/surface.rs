@@ -27,7 +27,7 @@ impl Surface {
     pub fn new(model: &Model, node: Option<usize>) -> Result<Self, InputError> {
         let is_in = |index: usize| match node {
             Some(root) => std::iter::successors(Some(index), |i| model.nodes[*i].parent).any(|i| i == root),
-            None => model.nodes[index].drawn,
+            None => model.nodes[index].is_shown(),
         };
         let corners: Vec<[DVec3; 3]> =
             (0..model.nodes.len()).filter(|i| is_in(*i)).flat_map(|i| corners(model, i)).collect();

@@ -8,6 +8,7 @@ use super::item::{File, Item};
 use super::table::Table;
 use super::{camera, image, keys, later, lens, light, links, overlap, scene};
 use crate::InputError;
+use crate::limits::MAX_SPEC_BYTES;
 use crate::spec::{NumberRange, Source, Spec};
 
 impl Spec {
@@ -27,7 +28,11 @@ impl Spec {
 
     /// Reads a spec from its text. `name` stands for the file in messages; relative paths start at `folder`.
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Spec, InputError> {
-        let source = Source { name: name.to_owned(), text: text.into() };
+        if text.len() as u64 > MAX_SPEC_BYTES {
+            let message = format!("the spec {name} has {} bytes, and at most {MAX_SPEC_BYTES} can be", text.len());
+            return Err(InputError::new(message).help("long lists of points belong into a model: see the shape `mesh`"));
+        }
+        let source = Source::new(name, text);
         let document = DeTable::parse(text).map_err(|error| not_toml(&source, &error))?;
         let file = File { source: &source, folder };
         let table = Table::of_map(&file, "a spec", document.get_ref(), document.span(), keys::DOCUMENT)?;
