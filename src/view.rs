@@ -9,6 +9,8 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
+use crate::scene::Aabb;
+
 /// A resolved camera for one picture size. World space, scene units; `right`, `up`, `forward` are orthonormal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
@@ -115,6 +117,9 @@ impl Ray {
     }
 }
 
+/// From so many times its distance on a triangle is very large.
+const LARGE: f64 = 32.0;
+
 impl View {
     pub fn is_perspective(&self) -> bool {
         matches!(self.projection, Projection::Perspective { .. })
@@ -128,6 +133,14 @@ impl View {
     /// The distance from the eye, along the forward axis, of a depth.
     pub fn from_eye(&self, depth: f64) -> f64 {
         self.anchor.depth + depth
+    }
+
+    /// Whether a triangle, its corners relative to the origin, is very large for how far it is from there or, nearer than
+    /// that, from what is to be seen: seen from nearby, single precision of its far corners is too coarse to say where it is.
+    pub fn is_large(&self, corners: &[DVec3; 3]) -> bool {
+        let bounds = Aabb::from_points(*corners);
+        let distance = DVec3::ZERO.clamp(bounds.min, bounds.max).length();
+        bounds.size().max_element() > (LARGE * distance).max(self.anchor.unit)
     }
 
     fn aspect(&self) -> f64 {

@@ -7,7 +7,8 @@
 // surface (`GLASS`) or one with a line where it meets the scene (`CONTACT`), something may be seen through something else
 // (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
-// (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`). `CHANNELS`: how many numbers at vertices filters
+// (`QUANTITIES`), has wires that nearer surfaces hide (`HIDDEN_LINES`), or
+// some triangle is very large for how near it is (`LARGE`). `CHANNELS`: how many numbers at vertices filters
 // read, at least 1.
 // Positions are relative to the view's origin, along the world's axes, and depths are counted from its anchor (see
 // `view.rs`), unless a name says otherwise.
@@ -151,6 +152,8 @@ struct Item {
     ratio: f32,
     // How far versions of it may lie from each other.
     spread: f32,
+    // In `lens_data`, or NONE: the planes of its triangles, by their numbers in its primitive, where some are very large.
+    planes: u32,
     masks: array<u32, 6u * WORDS>,
     // Of each channel, where its numbers start in `attributes`, or NONE, and a factor.
     channels: array<u32, 2u * CHANNELS>,

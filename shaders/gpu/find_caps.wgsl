@@ -5,15 +5,21 @@ struct CutVarying {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) item: u32,
     @location(1) depth: f32,
+    @location(2) @interpolate(flat) triangle: u32,
 }
 
 // Nothing is cut off behind, wherever the far plane is: what lies behind a boundary tells whether it is inside.
 @vertex
-fn cut_vertex(@location(0) local: vec3f, shown: Shown, @builtin(instance_index) item: u32) -> CutVarying {
+fn cut_vertex(
+    @location(0) local: vec3f,
+    shown: Shown,
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) item: u32,
+) -> CutVarying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
     let z = select(0.5, 1.0, frame.perspective != 0u);
-    return CutVarying(clip_position(p, depth, z), item, depth);
+    return CutVarying(clip_position(p, depth, z), item, depth, vertex - shown.base_vertex);
 }
 
 @fragment
@@ -23,7 +29,11 @@ fn crossing(in: CutVarying, @builtin(front_facing) is_front: bool) {
     if tile_at(pixel).part_count == 0u && items[in.item].step_count == 0u {
         return;
     }
-    append(crossings_of(pixel), in.depth, in.item, select(0xffffffffu, 1u, is_front));
+    var depth = in.depth;
+    if has_planes(in.item) {
+        depth = meeting(in.item, in.triangle, pixel_ray(pixel)).hit.depth;
+    }
+    append(crossings_of(pixel), depth, in.item, select(0xffffffffu, 1u, is_front));
 }
 
 fn crossings_of(pixel: vec2u) -> u32 {

@@ -38,10 +38,6 @@ pub struct Triangle {
 /// Stands for "not there" in [`Triangle::exact`].
 pub const NONE: u32 = u32::MAX;
 
-/// From so many times its distance on a triangle is very large: seen from nearby, single precision of its far corners is too
-/// coarse to say where it is.
-const LARGE: f64 = 32.0;
-
 /// Boxes are padded by this share of the largest coordinate, so that rounding in the box test loses no flat triangle.
 const PADDING: f32 = 1e-6;
 
@@ -89,6 +85,7 @@ impl Geometry {
         let members = plan.bodies.par_iter().flat_map_iter(|body| &body.members);
         let everywhere = scene::Aabb::EVERYWHERE;
         Self::new(
+            &plan.view,
             members
                 .flat_map(|member| {
                     let instance = &plan.instances[member.instance];
@@ -105,11 +102,15 @@ impl Geometry {
             if instance.is_moved() { instance.bounds } else { scene::Aabb::EVERYWHERE }
         };
         Self::new(
+            &plan.view,
             instances.flat_map(|(index, instance)| triangles(scene, plan, index, instance, bounds(instance))).collect(),
         )
     }
 
-    fn new(found: Vec<(Triangle, [DVec3; 3])>) -> Self {
+    /// `found`: each triangle with its corners in double precision.
+    fn new(view: &View, found: Vec<(Triangle, [DVec3; 3])>) -> Self {
+        let scale = scale(view);
+        let is_large = |corners: &[DVec3; 3]| view.is_large(&corners.map(|p| p / scale));
         // All of an instance is met in one way: its triangles share edges.
         let large: HashSet<u32> =
             found.iter().filter(|(_, corners)| is_large(corners)).map(|(triangle, _)| triangle.instance).collect();
@@ -159,11 +160,4 @@ fn triangles<'a>(
             (Triangle { corners: corners.map(|p| p.as_vec3()), instance, index, exact: NONE }, corners)
         })
     })
-}
-
-/// Whether a triangle is very large for how far it is from the origin or, nearer than that, from what is seen.
-fn is_large(corners: &[DVec3; 3]) -> bool {
-    let bounds = scene::Aabb::from_points(*corners);
-    let distance = DVec3::ZERO.clamp(bounds.min, bounds.max).length();
-    bounds.size().max_element() > LARGE * distance.max(1.0 / LARGE)
 }

@@ -59,7 +59,16 @@ enum Fate {
 }
 
 /// The draws of what a window may show, in the order that decides ties.
-pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, skip: Skip) -> Vec<Draw> {
+///
+/// `large`: whether each instance has very large triangles, whose depths each fragment finds.
+pub fn draws(
+    scene: &Scene,
+    plan: &Plan,
+    window: &Window,
+    uploaded: &SceneData,
+    skip: Skip,
+    large: &[bool],
+) -> Vec<Draw> {
     let lenses = Lenses::new(plan);
     let mut order: Vec<usize> = (0..plan.instances.len()).collect();
     order.sort_by_key(|instance| plan.items[plan.instances[*instance].item].first_triangle);
@@ -89,7 +98,7 @@ pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, 
                 base_vertex: range.base_vertex as i32,
                 culling: culling(scene, plan, item),
                 rect,
-                plain: fate == Fate::Plain,
+                plain: fate == Fate::Plain && !large[number],
             };
             match draws.last_mut() {
                 Some(last) if last.goes_on(&draw) => {

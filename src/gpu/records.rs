@@ -121,6 +121,8 @@ pub struct ItemRecord {
     pub ratio: f32,
     /// How far versions of it may lie from each other.
     pub spread: f32,
+    /// Among the vectors of lenses, or `u32::MAX`: the planes of its triangles.
+    pub planes: u32,
 }
 
 /// A lens that moves content, on the way down from a shown point.
