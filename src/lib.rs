@@ -18,6 +18,7 @@ pub mod lens;
 pub mod limits;
 pub mod output;
 pub mod pick;
+pub mod pieces;
 pub mod pixel;
 pub mod plan;
 mod printable;

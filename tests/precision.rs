@@ -100,7 +100,8 @@ impl Stage {
         let opened = self.opened()?;
         let frame = draw(&opened)?;
         let aovs = frame.aovs.as_ref().ok_or("the picture has no AOVs")?;
-        let region = |at: usize| aovs.region(at).map_or("nothing".into(), |region| opened.plan.names(region.set).join("+"));
+        let region =
+            |at: usize| aovs.region(at).map_or("nothing".into(), |region| opened.plan.names(region.set).join("+"));
         Ok(Picture { regions: (0..frame.pixels.len()).map(region).collect(), pixels: frame.pixels })
     }
 }
@@ -153,11 +154,13 @@ fn text(v: DVec3) -> String {
 
 /// A box between two corners, closed.
 fn cuboid(low: Vec3, high: Vec3) -> Primitive {
-    let corner = |i: u32| Vec3::new(
-        if i & 1 == 0 { low.x } else { high.x },
-        if i & 2 == 0 { low.y } else { high.y },
-        if i & 4 == 0 { low.z } else { high.z },
-    );
+    let corner = |i: u32| {
+        Vec3::new(
+            if i & 1 == 0 { low.x } else { high.x },
+            if i & 2 == 0 { low.y } else { high.y },
+            if i & 4 == 0 { low.z } else { high.z },
+        )
+    };
     let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
     Primitive { positions: (0..8).map(corner).collect(), triangles, ..Primitive::default() }
@@ -210,8 +213,7 @@ fn long_lens(draw: Draw) -> Result<(), String> {
     let flat = pipe(1.0, DVec3::ZERO, &orthographic(10.0)).drawn(draw)?;
     for distance in [1e5, 1e6] {
         let degrees = (2.0 * (2.0 / distance).atan()).to_degrees();
-        let camera =
-            format!("eye = {}\ntarget = [0, 0, 0]\nfov_y = {degrees:?}", text(WAY.normalize() * distance));
+        let camera = format!("eye = {}\ntarget = [0, 0, 0]\nfov_y = {degrees:?}", text(WAY.normalize() * distance));
         pipe(1.0, DVec3::ZERO, &camera).drawn(draw)?.is_as(&flat, 20, &format!("from {distance}"))?;
     }
     Ok(())

@@ -7,7 +7,7 @@ use super::args::{BackendChoice, EngineChoice};
 use super::stages::Stages;
 use crate::InputError;
 use crate::cpu;
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, InFront};
 use crate::lens::LayerStart;
 use crate::pick::Pick;
 use crate::pixel::PixelReport;
@@ -106,6 +106,11 @@ impl Backend {
             _ => Err(no_picture(error)),
         }
     }
+}
+
+/// What lies in front of what is visible, which the CPU finds whoever renders.
+pub fn in_front(scene: &Scene, plan: &Plan) -> Result<InFront, InputError> {
+    Ok(cpu::Renderer::new(scene, plan)?.in_front()?)
 }
 
 impl Backend {

@@ -58,7 +58,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), InputError> {
         ExplainFormat::Text | ExplainFormat::Json => {
             let backend = choose(&args.view)?;
             let aovs = backend.maps(scene, plan, &mut Stages::default())?;
-            let explanation = explanation.in_view(&aovs, backend.name());
+            let explanation = explanation.in_view(&aovs, backend::in_front(scene, plan)?, backend.name());
             if args.format == ExplainFormat::Json {
                 super::print_json(&explanation);
             } else {

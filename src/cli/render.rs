@@ -73,7 +73,7 @@ fn draw_view(
             return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs))
+    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
 }
 
 fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {

@@ -9,8 +9,21 @@ use super::excerpt::Excerpt;
 use crate::InputError;
 use crate::error::shortened;
 
-/// The error as a block of text, at most `width` columns wide; colours only where the terminal shows them.
+/// Of several errors so many are shown.
+const MOST: usize = 20;
+
+/// The error as a block of text, at most `width` columns wide; colours only where the terminal shows them. Others behind
+/// it, each as a block of its own.
 pub fn report(error: &InputError, width: usize, color: bool) -> String {
+    let shown = std::iter::once(error).chain(&error.others).take(MOST);
+    let mut text: String = shown.map(|error| one(error, width, color)).collect();
+    if let more @ 1.. = (1 + error.others.len()).saturating_sub(MOST) {
+        text += &format!("  and {more} more\n");
+    }
+    text
+}
+
+fn one(error: &InputError, width: usize, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(width).with_links(false);
     let mut text = String::new();

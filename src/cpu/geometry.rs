@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::intersect::{ShearedRay, TriangleHit};
 use crate::plan::{Instance, Plan};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Enclosing, Scene};
 use crate::view::View;
 
 /// Triangles in the order of the BVH's leaves.
@@ -80,7 +80,7 @@ impl Geometry {
         }
     }
 
-    /// All of the nodes that may be cut.
+    /// All that encloses something of the nodes that may be cut.
     pub fn of_bodies(scene: &Scene, plan: &Plan) -> Self {
         let members = plan.bodies.par_iter().flat_map_iter(|body| &body.members);
         let everywhere = scene::Aabb::EVERYWHERE;
@@ -89,7 +89,14 @@ impl Geometry {
             members
                 .flat_map(|member| {
                     let instance = &plan.instances[member.instance];
-                    triangles(scene, plan, member.instance, instance, everywhere)
+                    let item = &plan.items[instance.item];
+                    let closure = scene.models[item.model].closure(item.mesh, item.ratio);
+                    let primitive = item.primitive;
+                    let lids = lids(scene, plan, member.instance, &closure.primitives[primitive]);
+                    let encloses = move |(triangle, _): &(Triangle, [DVec3; 3])| {
+                        closure.primitives[primitive].role(triangle.index as usize).is_closed()
+                    };
+                    triangles(scene, plan, member.instance, instance, everywhere).filter(encloses).chain(lids)
                 })
                 .collect(),
         )
@@ -134,6 +141,23 @@ impl Geometry {
         let ordered = bvh.primitive_indices.par_iter().map(|i| triangles[*i as usize]).collect();
         Self { bvh, triangles: ordered, exact }
     }
+}
+
+/// What closes holes of an instance over, numbered from its triangles on.
+fn lids(scene: &Scene, plan: &Plan, index: usize, enclosing: &Enclosing) -> Vec<(Triangle, [DVec3; 3])> {
+    let instance = &plan.instances[index];
+    let item = &plan.items[instance.item];
+    let world = instance.shown_from_world * scene.models[item.model].nodes[item.node].world_from_local;
+    let (scale, origin) = (scale(&plan.view), plan.view.origin());
+    let around = |p: Vec3| (world.transform_point3(p.as_dvec3()) - origin) * scale;
+    let numbered = (item.triangles..).zip(&enclosing.lids);
+    numbered
+        .map(|(index_in_item, (corners, _))| {
+            let corners = corners.map(around);
+            let single = corners.map(|p| p.as_vec3());
+            (Triangle { corners: single, instance: index as u32, index: index_in_item, exact: NONE }, corners)
+        })
+        .collect()
 }
 
 /// The triangles of an instance that reach into some bounds.

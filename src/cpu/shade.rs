@@ -2,6 +2,8 @@
 
 mod cap;
 
+use std::sync::atomic::AtomicU64;
+
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, g2, g3, g4, light, v2, v3, v4};
@@ -9,7 +11,7 @@ use super::custom::Site;
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::{Fragment, cap_maker};
-use crate::plan::{Instance, Item, LensSet, Op, Plan};
+use crate::plan::{Instance, Item, LensSet, Op, OwnSurface, Plan};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
@@ -27,6 +29,12 @@ pub struct Shader<'a> {
     forward: DVec3,
     /// Of the view: positions are relative to it, along the world's axes.
     origin: DVec3,
+    /// Loop iterations that the user's own filters have taken for the picture.
+    pub spent: AtomicU64,
+    /// Of each body, where caps show its own colours.
+    own: Vec<Option<OwnSurface>>,
+    /// Of each instance, its body.
+    bodies: Vec<Option<u32>>,
 }
 
 /// From local space to the world's axes around the view's origin as shown: for points, and for normals.
@@ -157,7 +165,14 @@ impl<'a> Shader<'a> {
             };
             plan.channels.iter().map(of).collect()
         };
+        let mut bodies = vec![None; plan.instances.len()];
+        for (number, body) in (0u32..).zip(&plan.bodies) {
+            body.members.iter().for_each(|member| bodies[member.instance] = Some(number));
+        }
         Self {
+            spent: AtomicU64::new(0),
+            own: plan.bodies.iter().map(|body| OwnSurface::new(scene, plan, body)).collect(),
+            bodies,
             values: plan.items.iter().map(values).collect(),
             forward: plan.view.forward,
             origin,
@@ -292,7 +307,8 @@ impl<'a> Shader<'a> {
             let tangent = match &corners.primitive.tangents {
                 Some(tangents) => {
                     let t = corners.interpolated(tangents, weights);
-                    let along = transform.point.transform_vector3(t.truncate().as_dvec3()).as_vec3().normalize_or_zero();
+                    let along =
+                        transform.point.transform_vector3(t.truncate().as_dvec3()).as_vec3().normalize_or_zero();
                     along.extend(t.w.signum() * transform.side)
                 }
                 None => {
@@ -332,9 +348,9 @@ impl<'a> Shader<'a> {
     }
 
     /// Where a filter of the user's own acts on what is shown at `position`; `None` for any other.
-    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'a>> {
+    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'_>> {
         let from_origin = || self.source_around(&source(), position).as_vec3();
-        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_origin() })
+        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_origin(), spent: &self.spent })
     }
 
     /// Where a filter acts on what is shown at `position`, relative to the view's origin like it. `source`: from the shown

@@ -85,7 +85,8 @@ pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs, row: &Row) -> Frame {
     let from_eye = |depth: f64| plan.view.from_eye(depth);
     for (column, layers) in row.layers.iter().enumerate() {
         for (i, start) in layers.iter().enumerate() {
-            let [start_depth, end] = [start.depth, layers.get(i + 1).map_or(plan.view.far, |next| next.depth)].map(from_eye);
+            let [start_depth, end] =
+                [start.depth, layers.get(i + 1).map_or(plan.view.far, |next| next.depth)].map(from_eye);
             let color = if start.set.is_empty() { EMPTY } else { mix(EMPTY, colors.color(&region(start)), 0.85) };
             let (top, bottom) = (plot.y(end), plot.y(start_depth));
             canvas.fill([plot.x(column), top], [zoom, bottom - top + 1], color);

@@ -169,12 +169,7 @@ impl Volume {
 
 /// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several parts
 /// change; it is one of the volume where the whole then holds and did not, or the other way round.
-fn changes(
-    crossings: &[Boundary],
-    holding: &mut Holding,
-    merging: &Merging,
-    mut tell: impl FnMut(Boundary),
-) {
+fn changes(crossings: &[Boundary], holding: &mut Holding, merging: &Merging, mut tell: impl FnMut(Boundary)) {
     let mut held = holding.holds();
     let mut rest = crossings;
     while let Some(first) = rest.first() {

@@ -130,5 +130,8 @@ fn nearest_to_middle(corners: [(DVec2, f64); 3]) -> (f64, f64) {
         let share = (-a.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         ((a + along * share).length(), at_a + (at_b - at_a) * share)
     };
-    [0, 1, 2].map(on_side).into_iter().fold((f64::INFINITY, 0.0), |best, found| if found.0 < best.0 { found } else { best })
+    [0, 1, 2]
+        .map(on_side)
+        .into_iter()
+        .fold((f64::INFINITY, 0.0), |best, found| if found.0 < best.0 { found } else { best })
 }

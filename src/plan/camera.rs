@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::{anchor, instances};
 use super::lenses::Placed;
+use super::{anchor, instances};
 use crate::InputError;
 use crate::scene::{Aabb, Camera, Scene};
 use crate::spec::{By, CameraPlace, ProjectionSpec, Spec};

@@ -223,7 +223,10 @@ impl<'a> Ops<'a> {
         // A range without a length shows one colour, the low one.
         let scale = if high > low { 1.0 / (high - low) } else { 0.0 };
         let texture = *prepared(self.scene.color_maps.get(colormap), || format!("the colour map `{colormap}`"))?;
-        let op = self.reading(Op::new(kind, NONE, [(low - self.counted_from(quantity)) as f32, scale as f32, 0.0, 0.0]), quantity);
+        let op = self.reading(
+            Op::new(kind, NONE, [(low - self.counted_from(quantity)) as f32, scale as f32, 0.0, 0.0]),
+            quantity,
+        );
         Ok(Op { texture, ..op.flagged(wgsl::MAPPED.0, true) })
     }
 

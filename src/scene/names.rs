@@ -25,7 +25,7 @@ impl<'a> Subject<'a> {
         (lens.only.is_empty() || self.is_in(&lens.only)) && !self.is_in(&lens.except)
     }
 
-    fn is_in(&self, matches: &'a Matches) -> bool {
+    pub fn is_in(&self, matches: &'a Matches) -> bool {
         self.is_any(&matches.nodes, &matches.materials)
     }
 
@@ -136,14 +136,12 @@ impl Model {
 
     /// What to write instead of a node name that is not there.
     pub fn nearest_node_name(&self, name: &str) -> String {
-        let nearest = nearest(name, self.nodes.iter().map(|n| n.name.as_str()));
-        nearest.unwrap_or_else(|| "`lenspeel info` lists the nodes of a model".into())
+        help(nearest(name, self.nodes.iter().map(|n| n.name.as_str())), "nodes")
     }
 
     /// What to write instead of a material name that is not there.
     pub fn nearest_material_name(&self, name: &str) -> String {
-        let nearest = nearest(name, self.materials.iter().map(|m| m.name.as_str()));
-        nearest.unwrap_or_else(|| "`lenspeel info` lists the materials of a model".into())
+        help(nearest(name, self.materials.iter().map(|m| m.name.as_str())), "materials")
     }
 
     /// The nodes' names, to hold patterns against.
@@ -190,11 +188,18 @@ impl Model {
     }
 }
 
-/// A question after the name that is most like one, if any is.
-fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+fn help(nearest: Option<&str>, what: &str) -> String {
+    match nearest {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("`lenspeel info` lists the {what} of a model"),
+    }
+}
+
+/// The name that is most like one, if any is.
+pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = names.filter(|n| !n.is_empty()).map(|n| (strsim::jaro_winkler(n, name), n));
     let (score, nearest) = likeness.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (score > 0.8).then(|| format!("did you mean `{nearest}`?"))
+    (score > 0.8).then_some(nearest)
 }
 
 fn or_number(name: &str, kind: &str, number: usize) -> String {

@@ -52,7 +52,15 @@ fn nodes(model: &Model, choice: &InfoChoice) -> Vec<Value> {
 
 fn mesh(model: &Model, index: usize) -> Value {
     let mesh = &model.meshes[index];
-    json!({"index": index, "name": mesh.name, "triangles": triangles(mesh), "closed": model.closure(index).is_closed()})
+    let closure = model.closure(index, 1.0);
+    json!({
+        "index": index,
+        "name": mesh.name,
+        "triangles": triangles(mesh),
+        "closed": closure.is_closed(),
+        "closed_pieces": closure.closed,
+        "open_pieces": closure.open,
+    })
 }
 
 fn bounds(bounds: &Aabb) -> Option<Value> {

@@ -129,7 +129,12 @@ fn row(model: &Model, choice: &InfoChoice, index: usize, before: &str) -> Row {
     }
     cells.push(what.join(", "));
     if let Some(mesh) = node.mesh {
-        let closed = if model.closure(mesh).is_closed() { "closed" } else { "open" };
+        let closure = model.closure(mesh, 1.0);
+        let closed = match (closure.closed, closure.open) {
+            (0, _) => "open",
+            (_, 0) => "closed",
+            _ => "closed in parts",
+        };
         cells.push(format!("{} triangles", triangles(&model.meshes[mesh])));
         cells.push(if triangles(&model.meshes[mesh]) == 0 { String::new() } else { closed.into() });
         cells.push(bounds_text(&model.node_bounds(index)));
@@ -167,7 +172,7 @@ struct Under {
     nodes: usize,
     triangles: usize,
     bounds: Aabb,
-    /// Nodes with a mesh, and those of them whose mesh is closed.
+    /// Nodes with a mesh, and those of them whose mesh has closed pieces: those an eraser can cap.
     meshes: usize,
     closed: usize,
 }
@@ -181,7 +186,7 @@ impl Under {
             if let Some(mesh) = model.nodes[node].mesh {
                 sum.triangles += triangles(&model.meshes[mesh]);
                 sum.meshes += 1;
-                sum.closed += usize::from(model.closure(mesh).is_closed());
+                sum.closed += usize::from(model.closure(mesh, 1.0).closed > 0);
                 sum.bounds = sum.bounds.union(model.node_bounds(node));
             }
             open.extend(&model.nodes[node].children);
