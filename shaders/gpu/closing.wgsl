@@ -39,7 +39,7 @@ fn cap_words(item: u32, maker: u32) -> u32 {
 
 // Just before a boundary: at such a depth it is not reached, and lenses that meet there are not either.
 fn before_boundary(depth: f32) -> f32 {
-    return depth - 2.0 * MERGE * abs(depth);
+    return depth - 2.0 * merge_at(depth);
 }
 
 fn closing(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32) -> Closing {
