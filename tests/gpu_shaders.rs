@@ -181,8 +181,6 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
         "Frame",
         FrameRecord,
         [
-            ray_fixed,
-            ray_base,
             ray_dx,
             ray_dy,
             right,
@@ -190,6 +188,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             forward,
             clip_scale,
             clip_shift,
+            middle,
+            shares,
             near,
             far,
             perspective,
@@ -211,7 +211,11 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             after_key,
             after_item,
             tone_mapping,
-            eye,
+            drawn_from_eye,
+            origin,
+            anchor,
+            merge_most,
+            merge_across,
             picture_scale,
             by_pixel,
             translucent,
@@ -264,8 +268,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
         "Part",
         PartRecord,
         [
-            ray_fixed,
-            ray_base,
+            ray_origin,
+            ray_direction,
             ray_dx,
             ray_dy,
             normal_x,
@@ -289,7 +293,10 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             node_count,
             first_triangle,
             first_vertex,
-            crossing_room
+            crossing_room,
+            first_projected,
+            reference,
+            origin
         ]
     );
     assert_eq!(size("Part"), size_of::<PartRecord>());
