@@ -117,7 +117,7 @@ fn two_cubes_that_touch_are_one_solid() {
 fn solids_that_overlap_unite_and_what_faces_inwards_is_a_hole() {
     let at = |center: DVec3, half: f64| cube().into_iter().map(move |t| t.map(|p| center + p * half));
     let turned = |t: Triangle| [t[0], t[2], t[1]];
-    let ray = Ray { origin: DVec3::new(-5.0, 0.03, 0.1), direction: DVec3::X, ..Ray::default() };
+    let ray = Ray::new(DVec3::new(-5.0, 0.03, 0.1), DVec3::X);
     let small = || at(DVec3::new(0.1, 0.0, 0.0), 0.5);
     let beside = || at(DVec3::new(1.0, 0.2, 0.1), 1.0);
     let all = |own: Vec<Triangle>| cube().into_iter().chain(own).collect::<Vec<_>>();
