@@ -13,6 +13,7 @@ pub mod explain;
 pub mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod legend;
 pub mod lens;
 pub mod output;
 pub mod pick;
@@ -21,6 +22,7 @@ pub mod plan;
 pub mod scene;
 pub mod spec;
 pub mod view;
+mod words;
 
 pub use error::InputError;
 

@@ -144,7 +144,7 @@ fn deep_nesting_is_an_error_rather_than_an_overflow() {
 /// An error's text can always be printed, with its lines.
 fn read_and_report(text: &str) {
     if let Err(error) = parse(text) {
-        assert!(!lenspeel::cli::report(&error, 80, false).is_empty());
+        assert!(!lenspeel::cli::report(&error, false).is_empty());
         assert!(!error.message.is_empty());
     }
 }

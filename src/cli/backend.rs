@@ -61,7 +61,7 @@ impl Backend {
         match self {
             Backend::Cpu => {
                 if engine.is_some() {
-                    eprintln!("note: --engine is about the GPU, and the CPU renders");
+                    stages.messages.note("note: --engine is about the GPU, and the CPU renders");
                 }
                 Ok(on_cpu(scene, plan, aovs, stages))
             }
@@ -92,7 +92,7 @@ impl Backend {
         match self {
             Backend::Cpu => {
                 let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan));
-                let bar = super::stages::progress(plan.view.size.iter().map(|s| u64::from(*s)).product());
+                let bar = stages.progress(plan.view.size.iter().map(|s| u64::from(*s)).product());
                 let maps = stages.time("render", || renderer.maps(&|done| bar.inc(done)));
                 bar.finish_and_clear();
                 Ok(maps)
@@ -152,7 +152,7 @@ fn no_picture(error: crate::gpu::Error) -> InputError {
 fn on_cpu(scene: &Scene, plan: &Plan, aovs: bool, stages: &mut Stages) -> Frame {
     let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan));
     let pixels = plan.view.size.iter().map(|s| u64::from(*s)).product();
-    let bar = super::stages::progress(pixels);
+    let bar = stages.progress(pixels);
     let frame = stages.time("render", || renderer.render(aovs, &|done| bar.inc(done)));
     bar.finish_and_clear();
     frame

@@ -1,33 +1,30 @@
 //! `lenspeel check`.
 
-use std::path::Path;
-
+use super::args::SpecArgs;
 use crate::InputError;
 use crate::plan::{Account, Plan};
 use crate::scene::Scene;
-use crate::spec::Spec;
+use crate::words::count_of;
 
 /// Opens and decides everything, prints warnings, and fails on them where `strict`.
-pub fn run(path: &Path, strict: bool) -> Result<(), InputError> {
-    let spec = Spec::load(path)?;
+pub fn run(spec: &SpecArgs, strict: bool) -> Result<(), InputError> {
+    let spec = spec.load()?;
     let scene = Scene::open(&spec)?;
     let plan = Plan::new(&spec, &scene)?;
     let account = Account::new(&spec, &plan);
     let findings = plan.warnings.len() + account.undecided.len();
     let mut text: String = plan.warnings.iter().map(|w| format!("warning: {w}\n")).collect();
     text += &account.undecided_text();
-    super::print(&text);
+    super::print(&text)?;
     if strict && findings > 0 {
-        let message = format!("{}: {findings} warning(s), and --strict allows none", spec.source.name);
+        let message = format!("{}: {}, and --strict allows none", spec.source.name, count_of(findings, "warning"));
         return Err(InputError::new(message).help("see the lines above"));
     }
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     super::print(&format!(
         "{}: good: {}, {}, {}\n",
         spec.source.name,
-        count(plan.lenses.len(), "lens").replace("lenss", "lenses"),
-        count(account.regions.len(), "region"),
-        count(findings, "warning"),
-    ));
-    Ok(())
+        count_of(plan.lenses.len(), "lens"),
+        count_of(account.regions.len(), "region"),
+        count_of(findings, "warning"),
+    ))
 }

@@ -2,14 +2,19 @@
 
 use std::fmt;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
+    SourceSpan, SpanContents,
+};
 
 use crate::InputError;
+use crate::spec::Source;
 
-/// The error as a block of text, at most `width` columns wide; colours only where the terminal shows them.
-pub fn report(error: &InputError, width: usize, color: bool) -> String {
+/// The error as a block of text; colours only where the terminal shows them. No line is broken to fit a width, which
+/// would fall into paths: a terminal does that without changing the text.
+pub fn report(error: &InputError, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(width).with_links(false);
+    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
     let mut text = String::new();
     match handler.render_report(&mut text, &Report::new(error)) {
         Ok(()) => text,
@@ -21,13 +26,39 @@ pub fn report(error: &InputError, width: usize, color: bool) -> String {
 #[derive(Debug)]
 struct Report<'a> {
     error: &'a InputError,
-    source: Option<NamedSource<String>>,
+    source: Option<Text<'a>>,
 }
 
 impl<'a> Report<'a> {
     fn new(error: &'a InputError) -> Self {
-        let named = |source: &crate::spec::Source| NamedSource::new(&source.name, source.text.to_string());
-        Self { error, source: error.source_text.as_ref().map(named) }
+        Self { error, source: error.source_text.as_ref().map(Text) }
+    }
+}
+
+/// A source as miette sees it: each of its parts a file of its own.
+#[derive(Debug)]
+struct Text<'a>(&'a Source);
+
+impl SourceCode for Text<'_> {
+    fn read_span<'b>(
+        &'b self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
+        let Self(source) = self;
+        let part = source.part(span.offset());
+        let local = SourceSpan::from((span.offset() - part.start, span.len()));
+        let read = source.text[part.clone()].read_span(&local, lines_before, lines_after)?;
+        let global = SourceSpan::from((read.span().offset() + part.start, read.span().len()));
+        Ok(Box::new(MietteSpanContents::new_named(
+            source.part_name(part.start).to_owned(),
+            read.data(),
+            global,
+            read.line(),
+            read.column(),
+            read.line_count(),
+        )))
     }
 }
 

@@ -55,9 +55,17 @@ impl<'a> Renderer<'a> {
         Self { plan, tracer: Tracer::new(scene, plan) }
     }
 
-    /// The picture; with `aovs`, what lies at the centre of each pixel, too. `done` is called with the number of
+    /// The picture, with its legend where the plan has one; with `aovs`, what lies at the centre of each pixel, too. `done` is called with the number of
     /// pixels of each finished tile, from any thread.
     pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
+        let mut frame = self.render_bare(aovs, done);
+        if self.plan.has_legend {
+            crate::legend::draw(self.plan, &mut frame);
+        }
+        frame
+    }
+
+    fn render_bare(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
         let size = self.plan.view.size;
         if !self.plan.screen.is_empty() {
             let pixels = self.screen_filtered(done);

@@ -243,8 +243,13 @@ fn cycle_error(spec: &Spec, graph: &PriorityGraph, cycle: &[EdgeIndex]) -> Input
         .map(|edge| {
             let declared = &graph.graph[*edge];
             let (below, above) = ends(*edge);
-            let line = spec.source.line(declared.span.start);
-            format!("line {line} (`{}`) puts `{}` below `{}`", declared.key.name(), name(below), name(above))
+            format!(
+                "{} (`{}`) puts `{}` below `{}`",
+                spec.source.spot(declared.span.start),
+                declared.key.name(),
+                name(below),
+                name(above)
+            )
         })
         .collect();
     let message = format!("the order of the lenses goes in a circle: {}: {}", names.join(" < "), lines.join(", "));

@@ -7,14 +7,15 @@ use crate::spec::{At, Filter, Matches, Pattern, Spec};
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
     let mut warnings: Vec<String> = scene.models.iter().flat_map(|m| m.warnings.iter().cloned()).collect();
     if let Some(time) = spec.scene.time.as_ref().filter(|_| !moves(scene)) {
-        let line = spec.source.line(time.span.start);
-        warnings
-            .push(format!("{}:{line}: `time` changes nothing: no node of the models is animated", spec.source.name));
+        warnings.push(format!(
+            "{}: `time` changes nothing: no node of the models is animated",
+            spec.source.place(time.span.start)
+        ));
     }
     let mut check = |place: String, patterns: &[At<Pattern>], known: &dyn Fn(&Pattern) -> bool| {
         for pattern in patterns.iter().filter(|p| !known(&p.value)) {
-            let line = spec.source.line(pattern.span.start);
-            warnings.push(format!("{}:{line}: {place} matches nothing: `{}`", spec.source.name, pattern.value));
+            let here = spec.source.place(pattern.span.start);
+            warnings.push(format!("{here}: {place} matches nothing: `{}`", pattern.value));
         }
     };
     let node = |p: &Pattern| scene.models.iter().any(|m| has_node(m, p));
@@ -61,9 +62,8 @@ pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Ite
         }
         let filter = filters.iter().find(|filter| matches!(filter.value, Filter::Lod { .. }))?;
         Some(format!(
-            "{}:{}: `lod` of {name} leaves {:.1} % of the triangles, not {:.1} %: fewer would move borders, or surfaces too far",
-            spec.source.name,
-            spec.source.line(filter.span.start),
+            "{}: `lod` of {name} leaves {:.1} % of the triangles, not {:.1} %: fewer would move borders, or surfaces too far",
+            spec.source.place(filter.span.start),
             100.0 * left / all,
             100.0 * ratio,
         ))

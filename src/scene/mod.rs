@@ -5,6 +5,7 @@
 mod animation;
 mod bounds;
 mod closed;
+mod files;
 mod lens_meshes;
 mod load;
 mod materials;
@@ -19,6 +20,7 @@ mod vertex_values;
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
 pub use closed::{Closure, ClosureCache};
+pub(crate) use files::files;
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;

@@ -16,7 +16,7 @@ mod material;
 mod nodes;
 mod open;
 mod texture;
-mod uri;
+pub(super) mod uri;
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -26,6 +26,7 @@ use gltf::json;
 use super::{BoundsCache, ClosureCache, Model};
 use crate::InputError;
 use crate::spec::SceneChoice;
+use crate::words::count_of;
 
 /// Fetches an external URI: percent-decoded, relative to the file.
 pub type Fetch<'f> = dyn FnMut(&str) -> Result<Vec<u8>, InputError> + 'f;
@@ -56,11 +57,6 @@ pub(super) fn object(kind: &str, index: usize, name: Option<&str>) -> String {
         Some(name) if !name.is_empty() => format!("{kind} {index} `{name}`"),
         _ => format!("{kind} {index}"),
     }
-}
-
-/// ``1 triangle``, ``2 triangles``.
-fn count_of(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 impl Model {

@@ -6,29 +6,51 @@ use toml::de::DeTable;
 
 use super::item::{File, Item};
 use super::table::Table;
-use super::{camera, image, keys, later, lens, light, links, overlap, scene};
+use super::{camera, image, keys, later, lens, light, links, overlap, scene, set};
 use crate::InputError;
 use crate::spec::{NumberRange, Source, Spec};
 
 impl Spec {
     /// Reads a spec file; relative paths in it start at its folder.
     pub fn load(path: &Path) -> Result<Spec, InputError> {
+        Self::load_with(path, &[])
+    }
+
+    /// The same with settings, see [`Spec::parse_with`].
+    pub fn load_with(path: &Path, settings: &[String]) -> Result<Spec, InputError> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| {
             InputError::new(format!("cannot read the spec file {name}: {error}")).help("check the path")
         })?;
+        Self::from_bytes(bytes, &name, path.parent().unwrap_or(Path::new("")), settings)
+    }
+
+    /// Reads a spec as it came from a file or a pipe. `name` stands for it in messages; relative paths start at
+    /// `folder`; settings as in [`Spec::parse_with`].
+    pub fn from_bytes(bytes: Vec<u8>, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             InputError::new(format!("the spec file {name} is not text: byte {at} is not UTF-8"))
                 .help("a spec is a TOML file saved as UTF-8")
         })?;
-        Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))
+        Self::parse_with(&text, name, folder, settings)
     }
 
     /// Reads a spec from its text. `name` stands for the file in messages; relative paths start at `folder`.
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Spec, InputError> {
-        let source = Source { name: name.to_owned(), text: text.into() };
-        let document = DeTable::parse(text).map_err(|error| not_toml(&source, &error))?;
+        Self::parse_with(text, name, folder, &[])
+    }
+
+    /// The same with settings: each is `KEY=VALUE` with a dotted key (`lens.probe.center`, where `probe` is the lens of
+    /// that name) and a TOML value, and holds as if the file said so.
+    pub fn parse_with(text: &str, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
+        let source = Source::with_settings(name, text, settings);
+        let mut parts = source.parts();
+        let of_file = parts.next().unwrap_or_default();
+        let mut document = DeTable::parse(&source.text[of_file]).map_err(|error| not_toml(&source, &error))?;
+        for part in parts {
+            set::apply(document.get_mut(), &source, part)?;
+        }
         let file = File { source: &source, folder };
         let table = Table::of_map(&file, "a spec", document.get_ref(), document.span(), keys::DOCUMENT)?;
         let spec = read(&table, &source)?;
