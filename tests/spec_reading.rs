@@ -29,7 +29,7 @@ fn scene_and_image() {
     assert_eq!(alternates, ["zebra", "bones"], "file order");
     assert_eq!(
         spec.image,
-        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None }
+        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None, legend: true }
     );
 }
 

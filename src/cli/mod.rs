@@ -22,6 +22,7 @@ mod wrap;
 
 use std::ffi::OsStr;
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, ValueEnum};
 
@@ -39,8 +40,10 @@ pub use schema::schema;
 /// The input is wrong, or the result cannot be written; clap itself exits with 2 when the usage is.
 const FAILED: u8 = 1;
 
-/// Runs the program on the arguments of the process.
-pub fn run() -> ExitCode {
+/// Runs the program on the arguments of the process. Whether standard output was closed when the process began can be
+/// known only before Rust's runtime has begun, too.
+pub fn run(stdout_is_closed: bool) -> ExitCode {
+    streams::IS_CLOSED.store(stdout_is_closed, Ordering::Relaxed);
     let color = color_of(std::env::args_os().skip(1));
     let matches = Cli::command().color(color).try_get_matches();
     match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {

@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Display, Write as _};
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::ColorChoice;
 
@@ -11,6 +12,9 @@ use crate::InputError;
 
 /// Columns of text on a wide terminal.
 const WIDEST: usize = 100;
+
+/// Whether there is no standard output at all.
+pub static IS_CLOSED: AtomicBool = AtomicBool::new(false);
 
 /// Text to standard output.
 pub fn print(text: &str) -> Result<(), InputError> {
@@ -53,7 +57,8 @@ pub fn write_out(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result
 
 /// What an attempt to write to standard output comes to.
 pub fn settle(written: io::Result<()>) -> Result<(), InputError> {
-    match written {
+    let is_closed = IS_CLOSED.load(Ordering::Relaxed);
+    match if is_closed { Err(io::Error::other("it is closed")) } else { written } {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(InputError::new(format!("standard output cannot be written: {error}"))
             .help("what it was redirected to may be full or closed")),

@@ -40,8 +40,8 @@ fn folded(line: &str) -> Vec<String> {
     let (mut rest, mut indent) = (line, "");
     loop {
         let room = MOST_LETTERS - indent.len();
-        let Some((end, _)) = rest.char_indices().nth(room) else { break };
-        let space = rest[..=end].rfind(' ').filter(|at| !rest[..*at].trim().is_empty());
+        let Some((end, next)) = rest.char_indices().nth(room) else { break };
+        let space = rest[..end + next.len_utf8()].rfind(' ').filter(|at| !rest[..*at].trim().is_empty());
         let (part, after) = rest.split_at(space.unwrap_or(end));
         lines.push(format!("{indent}{}", part.trim_end()));
         (rest, indent) = (after.trim_start(), INDENT);

@@ -165,7 +165,8 @@ fn draw_bar(overlay: &mut Overlay, [x, y]: [i32; 2], colors: &[Rgb], ends: [f64;
     let [w, h] = letters.letter;
     let width = BAR * w;
     for column in 0..width {
-        let color = colors[column as usize * (colors.len() - 1) / (width - 1) as usize];
+        let along = f64::from(column) / f64::from(width - 1);
+        let color = colors[(along * (colors.len() - 1) as f64).round() as usize];
         overlay.fill([x + column, y], [1, h], color, 1.0);
     }
     for tick in ticks(ends, unit, BAR as usize) {

@@ -143,6 +143,22 @@ mod linux {
     }
 
     #[test]
+    fn closed_standard_output_is_an_error_and_a_device_that_takes_all_is_none() {
+        for script in ["\"$1\" schema >&-", "\"$1\" --version >&-", "\"$1\" check \"$2\" >&-"] {
+            let closed = shell(script, "");
+            assert_eq!(closed.status.code(), Some(1), "{script}");
+            assert!(
+                String::from_utf8_lossy(&closed.stderr).contains("standard output cannot be written: it is closed")
+            );
+        }
+        assert!(shell("\"$1\" schema 1<>/dev/null", "").status.success());
+        // Who says nothing there misses nothing.
+        let folder = Folder::new("streams-closed");
+        let render = shell("\"$1\" render \"$2\" -o \"$3\" --size 8x6 --backend cpu >&-", &folder.file("a.png"));
+        assert!(render.status.success() && !folder.read("a.png").is_empty());
+    }
+
+    #[test]
     fn a_reader_that_went_away_is_no_error() {
         let went = shell("{ \"$1\" schema; echo $? >&2; } | head -c 1", "");
         assert_eq!(String::from_utf8_lossy(&went.stderr), "0\n");
