@@ -1,8 +1,10 @@
 //! The one error of the input side: what is wrong, where, and what to do.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
+use crate::limits::MAX_SHOWN;
 use crate::spec::Source;
 
 /// Something in a spec or a model is wrong. `Display` is a single paragraph that names the place;
@@ -64,10 +66,46 @@ impl fmt::Display for InputError {
                 None => write!(f, "{}: ", source.name)?,
             }
         }
-        write!(f, "{}", self.message)?;
+        write!(f, "{}", shortened(&self.message))?;
         if let Some(help) = &self.help {
-            write!(f, " ({help})")?;
+            write!(f, " ({})", shortened(help))?;
         }
         Ok(())
+    }
+}
+
+/// A text as messages show it: words that are much longer than any name are cut.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    if text.split_whitespace().all(|word| word.len() <= MAX_SHOWN) {
+        return Cow::Borrowed(text);
+    }
+    let mut short = String::new();
+    for piece in text.split_inclusive(char::is_whitespace) {
+        let count = piece.chars().count();
+        if count <= MAX_SHOWN {
+            short.push_str(piece);
+            continue;
+        }
+        // What stands behind the name, such as a quote, stays.
+        let tail: String = piece.chars().skip(count - 16).collect();
+        short.extend(piece.chars().take(MAX_SHOWN / 2));
+        short.push_str(&format!("... ({count} characters) ...{tail}"));
+    }
+    Cow::Owned(short)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_words_longer_than_any_name_are_cut() {
+        let plain = "no lens matches `cut-*`, however long the sentence is ".repeat(40);
+        assert_eq!(shortened(&plain), plain);
+        let long = format!("no lens matches `{}é`, so it is", "x".repeat(200_000));
+        let short = shortened(&long);
+        assert!(short.len() < 2 * MAX_SHOWN, "{short}");
+        assert!(short.starts_with("no lens matches `xxx") && short.ends_with("xé`, so it is"), "{short}");
+        assert!(short.contains("200004 characters"), "{short}");
     }
 }

@@ -7,6 +7,32 @@ use crate::plan::Region;
 /// Stands in the maps of indices where nothing is.
 pub const NOTHING: u32 = u32::MAX;
 
+/// There is no memory for what was asked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("there is no memory for {bytes} bytes of a picture of {pixels} pixels")]
+pub struct NoMemory {
+    pub pixels: u64,
+    pub bytes: u64,
+}
+
+/// So many values, or that there is no memory for them.
+pub(crate) fn filled<T: Clone>(count: usize, value: T) -> Result<Vec<T>, NoMemory> {
+    let mut list = Vec::new();
+    let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);
+    list.try_reserve_exact(count).map_err(|_| NoMemory { pixels: count as u64, bytes })?;
+    list.resize(count, value);
+    Ok(list)
+}
+
+/// Fails before any work where there is no memory for a picture, with its maps or without.
+pub(crate) fn check_memory(size: [u32; 2], aovs: bool) -> Result<(), NoMemory> {
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    let bytes = pixels * (4 + if aovs { Aovs::BYTES } else { 0 });
+    let no_memory = NoMemory { pixels, bytes };
+    let count = usize::try_from(bytes).map_err(|_| no_memory.clone())?;
+    Vec::<u8>::new().try_reserve_exact(count).map_err(|_| no_memory)
+}
+
 /// A finished picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -40,19 +66,25 @@ pub struct Aovs {
 
 impl Aovs {
     /// Maps of a picture where nothing is.
-    pub fn empty(size: [u32; 2]) -> Self {
+    ///
+    /// # Errors
+    /// There is no memory for them.
+    pub fn empty(size: [u32; 2]) -> Result<Self, NoMemory> {
         let count = size[0] as usize * size[1] as usize;
-        Self {
-            regions: vec![NOTHING; count],
+        Ok(Self {
+            regions: filled(count, NOTHING)?,
             table: Vec::new(),
-            instances: vec![NOTHING; count],
-            triangles: vec![NOTHING; count],
-            nodes: vec![0; count],
-            depth: vec![f32::INFINITY; count],
-            normals: vec![[0.0; 3]; count],
-            layers: vec![1; count],
-        }
+            instances: filled(count, NOTHING)?,
+            triangles: filled(count, NOTHING)?,
+            nodes: filled(count, 0)?,
+            depth: filled(count, f32::INFINITY)?,
+            normals: filled(count, [0.0; 3])?,
+            layers: filled(count, 1)?,
+        })
     }
+
+    /// Bytes a pixel.
+    pub const BYTES: u64 = 4 * 4 + 4 + 12 + 2;
 
     /// The region of each pixel's visible fragment; `None` where nothing is.
     pub fn region(&self, pixel: usize) -> Option<Region> {

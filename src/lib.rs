@@ -15,6 +15,7 @@ pub mod frame;
 pub mod gpu;
 pub mod legend;
 pub mod lens;
+pub mod limits;
 pub mod output;
 pub mod pick;
 pub mod pixel;

@@ -7,6 +7,7 @@ use clap::{Args, ColorChoice, Parser, Subcommand, ValueEnum};
 
 use super::outputs::is_stream;
 use crate::InputError;
+use crate::limits::MAX_SPEC_BYTES;
 use crate::output::Aov;
 use crate::spec::{ImageSpec, Spec};
 
@@ -62,8 +63,20 @@ pub enum Command {
         #[arg(long, conflicts_with = "name")]
         markdown: bool,
     },
+    /// List the shapes of lenses with their keys
+    Shapes {
+        /// Only this one
+        name: Option<String>,
+        /// A table of all, in Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
     /// Print a JSON Schema of lens-spec files, for editors
-    Schema,
+    Schema {
+        /// The keys as tables in Markdown instead
+        #[arg(long)]
+        markdown: bool,
+    },
     /// Print completions for a shell
     Completions {
         #[arg(value_enum)]
@@ -94,6 +107,7 @@ impl SpecArgs {
         let mut bytes = Vec::new();
         std::io::stdin()
             .lock()
+            .take(MAX_SPEC_BYTES + 1)
             .read_to_end(&mut bytes)
             .map_err(|error| InputError::new(format!("cannot read the spec from standard input: {error}")))?;
         Spec::from_bytes(bytes, "<stdin>", Path::new(""), &self.set)

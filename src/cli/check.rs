@@ -20,11 +20,16 @@ pub fn run(spec: &SpecArgs, strict: bool) -> Result<(), InputError> {
         let message = format!("{}: {}, and --strict allows none", spec.source.name, count_of(findings, "warning"));
         return Err(InputError::new(message).help("see the lines above"));
     }
+    let at_least = if account.ended.is_some() { "at least " } else { "" };
     super::print(&format!(
-        "{}: good: {}, {}, {}\n",
+        "{}: good: {}, {at_least}{}, {}\n",
         spec.source.name,
         count_of(plan.lenses.len(), "lens"),
         count_of(account.regions.len(), "region"),
         count_of(findings, "warning"),
-    ))
+    ))?;
+    match &account.ended {
+        Some(ended) => super::print(&format!("note: {ended}; undecided pairs were looked for in those\n")),
+        None => Ok(()),
+    }
 }

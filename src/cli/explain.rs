@@ -42,7 +42,7 @@ impl Opened {
 fn choose(args: &ViewArgs, messages: Messages) -> Result<Backend, InputError> {
     // Nothing is said of a choice that nobody made.
     let Some(choice) = args.backend else { return Ok(Backend::Cpu) };
-    let (backend, choice) = backend::choose(choice)?;
+    let (backend, choice) = backend::choose(choice, messages)?;
     messages.note(choice);
     Ok(backend)
 }

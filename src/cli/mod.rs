@@ -5,6 +5,7 @@ mod backend;
 #[cfg(feature = "gpu")]
 mod bench;
 mod check;
+mod excerpt;
 mod explain;
 mod filters;
 mod info;
@@ -16,8 +17,10 @@ mod outputs;
 mod render;
 mod report;
 mod schema;
+mod shapes;
 mod stages;
 mod streams;
+mod words;
 mod wrap;
 
 use std::ffi::OsStr;
@@ -31,11 +34,12 @@ use crate::scene::Model;
 use args::{Cli, Command};
 use streams::{Messages, print, print_json, print_text};
 
-pub use filters::{filter_text, filters_markdown, filters_text};
+pub use filters::{filter_text, filters_index, filters_markdown, filters_text};
 pub use info::info_text;
 pub use init::init_text;
 pub use report::report;
-pub use schema::schema;
+pub use schema::{keys_markdown, schema};
+pub use shapes::{shape_text, shapes_markdown, shapes_text};
 
 /// The input is wrong, or the result cannot be written; clap itself exits with 2 when the usage is.
 const FAILED: u8 = 1;
@@ -107,7 +111,10 @@ fn run_command(command: Command, messages: Messages) -> Result<(), InputError> {
         Command::Init { model, output } => init::run(&model, output.as_deref(), messages),
         Command::Filters { name: Some(name), .. } => print_text(&filters::filter_text(&name)?),
         Command::Filters { markdown, .. } => print(&if markdown { filters_markdown() } else { filters_text() }),
-        Command::Schema => print_json(&schema()),
+        Command::Shapes { name: Some(name), .. } => print_text(&shapes::shape_text(&name)?),
+        Command::Shapes { markdown, .. } => print(&if markdown { shapes_markdown() } else { shapes_text() }),
+        Command::Schema { markdown: true } => print(&keys_markdown()),
+        Command::Schema { markdown: false } => print_json(&schema()),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { command } => manual::page(command.as_deref()),
     }

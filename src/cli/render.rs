@@ -30,7 +30,7 @@ pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
     spec.image.legend = (spec.image.legend || args.legend) && args.view.is_none();
     // A device takes as long to open as many a scene.
     let (opened, device) = std::thread::scope(|scope| {
-        let device = scope.spawn(|| backend::choose(args.backend));
+        let device = scope.spawn(|| backend::choose(args.backend, messages));
         (open(&spec, &mut stages), stages.time("device", || device.join()))
     });
     let (scene, plan) = opened?;
@@ -54,7 +54,7 @@ pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
     }
     written.iter().for_each(|path| messages.note(format_args!("wrote {}", outputs::shown(path))));
     let Some(path) = &args.stats else { return Ok(()) };
-    outputs::write(path, stats(args, &plan, &choice, &stages).as_bytes())?;
+    outputs::write(path, stats(args, &plan, backend.name(), &choice, &stages).as_bytes())?;
     messages.note(format_args!("wrote {}", outputs::shown(path)));
     Ok(())
 }
@@ -131,9 +131,9 @@ fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<Vec<PathBu
     Ok(written)
 }
 
-fn stats(args: &RenderArgs, plan: &Plan, choice: &str, stages: &Stages) -> String {
+fn stats(args: &RenderArgs, plan: &Plan, backend: &str, choice: &str, stages: &Stages) -> String {
     let engine = args.engine.and_then(|e| e.to_possible_value()).map_or("fused".into(), |e| e.get_name().to_string());
-    let (backend, reason) = choice.split_once(": ").unwrap_or((choice, ""));
+    let reason = choice.split_once(": ").map_or("", |(_, reason)| reason);
     let stats = serde_json::json!({
         "backend": backend,
         "reason": reason,

@@ -1,13 +1,16 @@
 //! An [`InputError`] with the lines of the file it points into.
 
 use std::fmt;
+use std::ops::Range;
 
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
 };
 
+use super::excerpt::Excerpt;
 use crate::InputError;
+use crate::error::shortened;
 use crate::spec::Source;
 
 /// The error as a block of text; colours only where the terminal shows them. No line is broken to fit a width, which
@@ -26,33 +29,50 @@ pub fn report(error: &InputError, color: bool) -> String {
 #[derive(Debug)]
 struct Report<'a> {
     error: &'a InputError,
-    source: Option<Text<'a>>,
+    source: Option<Text>,
+    labels: Vec<(Range<usize>, String)>,
 }
 
 impl<'a> Report<'a> {
     fn new(error: &'a InputError) -> Self {
-        Self { error, source: error.source_text.as_ref().map(Text) }
+        let places: Vec<Range<usize>> = error.labels.iter().map(|(place, _)| place.clone()).collect();
+        let excerpt = error.source_text.as_ref().map(|source| (source, Excerpt::new(&source.text, &places)));
+        let place = |place: &Range<usize>| excerpt.as_ref().map_or(place.clone(), |(_, excerpt)| excerpt.place(place));
+        let labels = error.labels.iter().map(|(own, text)| (place(own), shortened(text).into_owned())).collect();
+        let source = excerpt.map(|(source, excerpt)| Text::new(source, excerpt));
+        Self { error, source, labels }
     }
 }
 
 /// A source as miette sees it: each of its parts a file of its own.
 #[derive(Debug)]
-struct Text<'a>(&'a Source);
+struct Text {
+    text: String,
+    /// With names.
+    parts: Vec<(Range<usize>, String)>,
+}
 
-impl SourceCode for Text<'_> {
+impl Text {
+    fn new(source: &Source, excerpt: Excerpt) -> Self {
+        let part = |part: Range<usize>| (excerpt.place(&part), source.part_name(part.start).to_owned());
+        Self { parts: source.parts().map(part).collect(), text: excerpt.text }
+    }
+}
+
+impl SourceCode for Text {
     fn read_span<'b>(
         &'b self,
         span: &SourceSpan,
         lines_before: usize,
         lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
-        let Self(source) = self;
-        let part = source.part(span.offset());
-        let local = SourceSpan::from((span.offset() - part.start, span.len()));
-        let read = source.text[part.clone()].read_span(&local, lines_before, lines_after)?;
+        let (part, name) =
+            self.parts.iter().find(|(part, _)| span.offset() <= part.end).ok_or(MietteError::OutOfBounds)?;
+        let local = SourceSpan::from((span.offset().saturating_sub(part.start), span.len()));
+        let read = self.text[part.clone()].read_span(&local, lines_before, lines_after)?;
         let global = SourceSpan::from((read.span().offset() + part.start, read.span().len()));
         Ok(Box::new(MietteSpanContents::new_named(
-            source.part_name(part.start).to_owned(),
+            name.clone(),
             read.data(),
             global,
             read.line(),
@@ -64,7 +84,7 @@ impl SourceCode for Text<'_> {
 
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.error.message)
+        f.write_str(&shortened(&self.error.message))
     }
 }
 
@@ -72,7 +92,7 @@ impl std::error::Error for Report<'_> {}
 
 impl Diagnostic for Report<'_> {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.error.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.error.help.as_ref().map(|help| Box::new(shortened(help)) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -83,6 +103,6 @@ impl Diagnostic for Report<'_> {
         let label = |(span, text): &(std::ops::Range<usize>, String)| {
             LabeledSpan::new(Some(text.clone()), span.start, span.end.saturating_sub(span.start))
         };
-        Some(Box::new(self.error.labels.iter().map(label)))
+        Some(Box::new(self.labels.iter().map(label)))
     }
 }

@@ -12,4 +12,4 @@ mod screen;
 mod shade;
 mod texture;
 
-pub use render::Renderer;
+pub use render::{Error, Renderer};

@@ -7,13 +7,16 @@ use crate::output::Entry;
 use crate::plan::{LensSet, Reasons, Region};
 use crate::spec::Spec;
 
-/// An object with `order` (lowest first), `view` (null without a picture), `regions`, `undecided`, `warnings`.
+/// An object with `order` (lowest first), `view` (null without a picture), `regions`, `untold` (how many more regions occur,
+/// none of them in view), `ended` (why the search for regions ended early, or null), `undecided`, `warnings`.
 impl Serialize for Explanation<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut object = serializer.serialize_struct("Explanation", 5)?;
+        let mut object = serializer.serialize_struct("Explanation", 7)?;
         object.serialize_field("order", &self.order_json())?;
         object.serialize_field("view", &self.coverage.as_ref().map(view_json))?;
         object.serialize_field("regions", &RegionList(self))?;
+        object.serialize_field("untold", &self.untold)?;
+        object.serialize_field("ended", &self.account.ended.map(|ended| ended.to_string()))?;
         object.serialize_field("undecided", &self.account.undecided)?;
         object.serialize_field("warnings", &self.plan.warnings)?;
         object.end()

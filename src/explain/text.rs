@@ -60,13 +60,28 @@ impl Explanation<'_> {
     }
 
     fn write_regions(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "regions that occur: {}", self.regions.len())?;
+        writeln!(f, "regions that occur: {}", self.count())?;
         let reasons = Reasons::new(self.spec, self.plan);
         for (_, region) in &self.regions {
             writeln!(f, "  {}", lenses(self.plan, region))?;
             self.write_actors(region, &reasons, "      ", f)?;
         }
-        Ok(())
+        self.write_rest("  ", f)
+    }
+
+    /// How many regions occur, as far as is known.
+    fn count(&self) -> String {
+        let count = self.regions.len() + self.untold;
+        if self.account.ended.is_some() { format!("at least {count}") } else { count.to_string() }
+    }
+
+    /// What is not listed.
+    fn write_rest(&self, indent: &str, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.untold > 0 {
+            let where_not = if self.coverage.is_some() { ", none of them in view" } else { "" };
+            writeln!(f, "{indent}and {} more{where_not}", self.untold)?;
+        }
+        self.account.ended.map_or(Ok(()), |ended| writeln!(f, "{indent}{ended}"))
     }
 
     /// The regions with their numbers and their shares of a picture, in columns.
@@ -76,7 +91,7 @@ impl Explanation<'_> {
         writeln!(
             f,
             "regions that occur: {}; shares of the picture's {width} x {height} pixels ({by})",
-            self.regions.len()
+            self.count()
         )?;
         writeln!(f, "  id        share  lenses")?;
         let reasons = Reasons::new(self.spec, self.plan);
@@ -90,7 +105,7 @@ impl Explanation<'_> {
         {
             writeln!(f, "{id:>4}  {:>11}  {what}", share_text(coverage, pixels))?;
         }
-        Ok(())
+        self.write_rest("                   ", f)
     }
 
     /// The stack of a region, who is hidden, and why.

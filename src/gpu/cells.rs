@@ -215,7 +215,7 @@ impl Projected {
             (!view.is_perspective() || depth >= view.near).then_some((p - origin, depth))
         };
         match &solid.form {
-            Form::HalfSpaces { planes, .. } if !solid.is_flat => {
+            Form::HalfSpaces { planes, .. } if solid.is_bounded() => {
                 let Polyhedron { faces } = Polyhedron::from_planes(planes).ok()?;
                 let corners: Option<Vec<_>> = faces.iter().flat_map(|(_, corners)| corners).map(project).collect();
                 let (points, depths): (Vec<DVec2>, Vec<f64>) = corners?.into_iter().unzip();

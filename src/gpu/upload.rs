@@ -2,15 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::atlas::Atlas;
 use super::clusters::{Cluster, Clustered};
 use super::provoking::Provoking;
 use super::records::NONE;
-use super::{Error, bindings};
+use super::{Error, alloc, bindings};
 use crate::plan::Item;
-use crate::scene::{Primitive, Scene};
+use crate::scene::{Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,6 +35,8 @@ pub struct SceneData {
     pub positions: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub bind_group: wgpu::BindGroup,
+    /// Which scene it is.
+    pub id: SceneId,
     primitives: HashMap<Place, (Range, Vec<Cluster>)>,
 }
 
@@ -139,7 +139,7 @@ impl SceneData {
                 numbers.as_entire_binding(),
             ],
         );
-        Ok(Self { positions, indices, bind_group, primitives })
+        Ok(Self { positions, indices, bind_group, id: scene.id, primitives })
     }
 
     /// Where an item's version of its primitive lies, and its clusters.
@@ -159,7 +159,8 @@ fn storage_buffer(
     bytes: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
-    check_size(largest_buffer(device), &format!("the scene's {label}"), bytes.len() as u64)?;
+    let what = format!("the scene's {label}");
+    check_size(largest_buffer(device), &what, bytes.len() as u64)?;
     let padded;
     let contents = if bytes.len() < SMALLEST {
         padded = [bytes, &vec![0; SMALLEST - bytes.len()]].concat();
@@ -167,7 +168,7 @@ fn storage_buffer(
     } else {
         bytes
     };
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
+    alloc::filled_buffer(device, &what, contents, usage)
 }
 
 /// Fails with numbers when a buffer is larger than allowed.

@@ -4,6 +4,7 @@ mod boxes;
 mod build;
 mod form;
 mod halfspaces;
+mod holding;
 mod hull;
 mod inside;
 mod layers;

@@ -66,7 +66,7 @@ pub fn encode_aov(aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<EncodedAov, Inpu
         }
         Aov::Layers => gray16(&aovs.layers, size),
         Aov::Region => {
-            let map = RegionMap::new(plan, &plan.regions(), aovs)?;
+            let map = RegionMap::new(plan, &plan.regions().regions, aovs)?;
             table = Some(serde_json::to_string_pretty(&map.json()).unwrap_or_default() + "\n");
             gray16(&map.ids, size)
         }

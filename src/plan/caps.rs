@@ -99,9 +99,6 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
 /// The nodes that may be cut, in each of the ways in which all of a node is shown; the smallest first: of those that lie
 /// in each other the inner ones.
 pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
-    let primitives = |node: &[Item]| node.iter().filter(|item| !item.is_simplified()).count();
-    let nodes = items.chunk_by(is_same_node).flat_map(|node| std::iter::repeat_n(primitives(node), node.len()));
-    let primitives_of_node: Vec<usize> = nodes.collect();
     // By the content, the node, the version and the lenses that move it.
     let mut ways: BTreeMap<(usize, usize, u32, Vec<usize>), Body> = BTreeMap::new();
     for (number, instance) in instances.iter().enumerate().filter(|(_, instance)| items[instance.item].is_cut) {
@@ -113,8 +110,13 @@ pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> V
         body.members.push(Member { instance: number, closed });
     }
     let first = |body: &Body| &instances[body.members[0].instance];
-    // What a lens moves or simplifies only some primitives of is not closed there.
-    let is_whole = |body: &Body| primitives_of_node[first(body).item] == body.members.len();
+    // What a lens shows, moves or simplifies only some primitives of encloses nothing together.
+    let is_whole = |body: &Body| {
+        let item = &items[first(body).item];
+        let primitives = &scene.models[item.model].meshes[item.mesh].primitives;
+        let all = primitives.iter().filter(|primitive| !primitive.triangles.is_empty()).count();
+        body.members.len() == all || body.members.iter().all(|member| member.closed)
+    };
     let size = |body: &Body| {
         let item = &items[first(body).item];
         let in_place = scene.models[item.model].node_bounds(item.node).size().element_product();

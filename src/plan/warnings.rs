@@ -2,7 +2,7 @@
 
 use super::{Item, Lens, Rule};
 use crate::scene::{Model, Scene};
-use crate::spec::{At, Filter, Matches, Pattern, Spec};
+use crate::spec::{At, Filter, Matches, Names, Pattern, Spec};
 
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
     let mut warnings: Vec<String> = scene.models.iter().flat_map(|m| m.warnings.iter().cloned()).collect();
@@ -18,9 +18,11 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
             warnings.push(format!("{here}: {place} matches nothing: `{}`", pattern.value));
         }
     };
-    let node = |p: &Pattern| scene.models.iter().any(|m| has_node(m, p));
-    let material = |p: &Pattern| scene.models.iter().any(|m| m.materials.iter().any(|m| p.matches(&m.name)));
-    check("`hide`".into(), &spec.scene.hide, &|p| has_node(&scene.models[0], p));
+    let (nodes_of_scene, nodes) = (scene.models[0].node_names(), node_names(&scene.models));
+    let materials = Names::new(scene.models.iter().flat_map(|m| &m.materials).map(|m| m.name.as_str()));
+    let node = |p: &Pattern| nodes.any(p);
+    let material = |p: &Pattern| materials.any(p);
+    check("`hide`".into(), &spec.scene.hide, &|p| nodes_of_scene.any(p));
     for lens in &spec.lenses {
         let name = &lens.name.value;
         for (key, Matches { nodes, materials }) in [("only", &lens.only), ("except", &lens.except)] {
@@ -75,6 +77,6 @@ fn moves(scene: &Scene) -> bool {
     scene.models.iter().flat_map(|model| &model.animations).any(|animation| !animation.channels.is_empty())
 }
 
-fn has_node(model: &Model, pattern: &Pattern) -> bool {
-    model.nodes.iter().any(|n| pattern.matches(&n.name))
+fn node_names(models: &[Model]) -> Names<'_> {
+    Names::new(models.iter().flat_map(|model| &model.nodes).map(|node| node.name.as_str()))
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
 use super::{MaterialRecord, Model, TextureSet, lens_meshes};
@@ -11,9 +12,22 @@ use crate::lens::LensMeshes;
 use crate::spec::{At, Filter, Quantity, Spec, suggest};
 use crate::{InputError, color_map};
 
+/// Which scene something belongs to; every [`Scene`] that is made gets another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SceneId(u64);
+
+impl Default for SceneId {
+    fn default() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
 /// The models of a spec with what they share: materials and textures in one table each.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
+    /// Tells it from other scenes, so that no plan is drawn over a scene that it was not made for. A clone is the same scene.
+    pub id: SceneId,
     /// The scene file, then the alternates in the order of the spec.
     pub models: Vec<Model>,
     /// Names of the alternates; number i is `models[i + 1]`.
@@ -84,6 +98,7 @@ impl Scene {
     /// Reads and computes what the filters of a spec look up: images, colour maps, numbers at vertices. [`Scene::open`]
     /// does; a scene made of models in memory needs it before a plan whose filters ask for such, which is refused otherwise.
     pub fn prepare_filters(&mut self, spec: &Spec) -> Result<(), InputError> {
+        self.bound_comparisons(spec)?;
         let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
         for filter in filters {
             match &filter.value {
@@ -103,6 +118,11 @@ impl Scene {
         }
         self.simplify(spec);
         Ok(())
+    }
+
+    /// Fails where a spec's patterns are too many for the names of the models.
+    pub(crate) fn bound_comparisons(&self, spec: &Spec) -> Result<(), InputError> {
+        super::names::bound_comparisons(spec, &self.models)
     }
 
     fn add_color_map(&mut self, name: &str) {

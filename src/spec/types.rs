@@ -17,7 +17,9 @@ pub struct Source {
     pub name: String,
     /// The file, then on lines of their own what was set beside it.
     pub text: Arc<str>,
-    /// Where the file ends and each setting begins.
+    /// Where its lines end.
+    ends: Arc<[usize]>,
+    /// Where each setting begins.
     settings: Arc<[usize]>,
 }
 
@@ -25,20 +27,21 @@ pub struct Source {
 const SETTING: &str = "--set";
 
 impl Source {
-    pub fn new(name: &str, text: &str) -> Self {
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self::with_settings(name, text, &[])
     }
 
     /// A file with settings (`KEY=VALUE`) that stand behind it.
-    pub fn with_settings(name: &str, text: &str, settings: &[String]) -> Self {
-        let mut all = text.to_owned();
+    pub fn with_settings(name: impl Into<String>, text: impl Into<String>, settings: &[String]) -> Self {
+        let mut all = text.into();
         let mut starts = Vec::new();
         for setting in settings {
             all.push('\n');
             starts.push(all.len());
             all += setting;
         }
-        Self { name: name.to_owned(), text: all.into(), settings: starts.into() }
+        let ends = all.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+        Self { name: name.into(), text: all.into(), ends, settings: starts.into() }
     }
 
     /// The parts of the text: the file, then each setting.
@@ -60,9 +63,8 @@ impl Source {
 
     /// 1-based line of a byte offset, in its part.
     pub fn line(&self, offset: usize) -> usize {
-        let start = self.part(offset).start;
-        let end = offset.min(self.text.len());
-        1 + self.text.as_bytes()[start..end].iter().filter(|b| **b == b'\n').count()
+        let before = |place: usize| self.ends.partition_point(|end| *end < place);
+        1 + before(offset) - before(self.part(offset).start)
     }
 
     /// The same as words: "line 3", or the setting.
@@ -241,7 +243,7 @@ pub enum ToneMapping {
 }
 
 /// Name patterns for nodes and materials.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matches {
     pub nodes: Vec<At<Pattern>>,
     pub materials: Vec<At<Pattern>>,
@@ -470,8 +472,13 @@ pub enum Cap {
 /// What `show` puts in place of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShowWhat {
-    /// A name under `[scene.alternates]`.
-    Alternate(At<String>),
+    Alternate {
+        /// Under `[scene.alternates]`.
+        name: At<String>,
+        /// What of it; empty: all.
+        only: Matches,
+    },
+    /// Of the scene.
     Nodes(Vec<At<Pattern>>),
 }
 

@@ -105,7 +105,7 @@ pub fn sixty_four_sheets(device: &Headless) -> Result<(), String> {
         }
         Ok(())
     };
-    check("cpu", &cpu::Renderer::new(&scene, &plan).render(false, &|_| ()).pixels)?;
+    check("cpu", &cpu::Renderer::new(&scene, &plan).and_then(|cpu| cpu.render(false, &|_| ())).expect("the CPU draws it").pixels)?;
     for engine in [Engine::Fused, Engine::Peel] {
         let options = RenderOptions { engine, aovs: false };
         let frame = device.render(&scene, &plan, options).map_err(|e| format!("{engine:?}: {e}"))?;

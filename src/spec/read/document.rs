@@ -8,6 +8,7 @@ use super::item::{File, Item};
 use super::table::Table;
 use super::{camera, image, keys, later, lens, light, links, overlap, scene, set};
 use crate::InputError;
+use crate::limits::MAX_SPEC_BYTES;
 use crate::spec::{NumberRange, Source, Spec};
 
 impl Spec {
@@ -45,6 +46,11 @@ impl Spec {
     /// that name) and a TOML value, and holds as if the file said so.
     pub fn parse_with(text: &str, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
         let source = Source::with_settings(name, text, settings);
+        let size = source.text.len();
+        if size as u64 > MAX_SPEC_BYTES {
+            let message = format!("the spec {name} has {size} bytes, and at most {MAX_SPEC_BYTES} can be");
+            return Err(InputError::new(message).help("long lists of points belong into a model: see the shape `mesh`"));
+        }
         let mut parts = source.parts();
         let of_file = parts.next().unwrap_or_default();
         let mut document = DeTable::parse(&source.text[of_file]).map_err(|error| not_toml(&source, &error))?;

@@ -13,7 +13,7 @@ use crate::InputError;
 use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
+use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -353,13 +353,17 @@ fn wireframe(params: &Params) -> Option<Filter> {
 
 fn show(params: &Params) -> Result<ShowWhat, InputError> {
     const REMEDY: &str = "write { show = { alternate = \"name\" } } or { show = { nodes = [\"name\"] } }";
-    match (params.text("alternate"), params.patterns("nodes")) {
-        (Some(alternate), None) => Ok(ShowWhat::Alternate(alternate)),
-        (None, Some(nodes)) => Ok(ShowWhat::Nodes(nodes)),
-        (None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
-        (Some(_), Some(_)) => {
-            Err(params.error("filter `show` takes `alternate` or `nodes`, not both".to_owned()).help(REMEDY))
+    let (nodes, materials) = (params.patterns("nodes"), params.patterns("materials"));
+    match (params.text("alternate"), nodes, materials) {
+        (Some(name), nodes, materials) => {
+            let only = Matches { nodes: nodes.unwrap_or_default(), materials: materials.unwrap_or_default() };
+            Ok(ShowWhat::Alternate { name, only })
         }
+        (None, Some(nodes), None) => Ok(ShowWhat::Nodes(nodes)),
+        (None, None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
+        (None, _, Some(_)) => Err(params
+            .error("`materials` of filter `show` needs an `alternate`".to_owned())
+            .help("of the scene it shows `nodes`; `only` limits the lens to materials")),
     }
 }
 

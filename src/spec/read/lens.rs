@@ -6,16 +6,19 @@ use super::item::Item;
 use super::table::Table;
 use super::{filter, keys, shape};
 use crate::InputError;
+use crate::limits::MAX_NAME;
 use crate::spec::{At, Attach, By, Glass, LensSpec, Matches, NumberRange, OverlapMode, Pattern};
 
 pub fn read(item: &Item) -> Result<LensSpec, InputError> {
     let table = Table::open(item, "[[lens]]", keys::LENS)?;
     let name = name(&table.need("name")?)?;
     let table = table.called(format!("lens `{}`", name.value));
+    let shape = shape::read(&table.need("shape")?)?;
+    let glass_unless_given = (!shape.value.is_half_space()).then(Glass::default);
     Ok(LensSpec {
         name,
         enabled: table.read("enabled", Item::boolean)?.unwrap_or(true),
-        shape: shape::read(&table.need("shape")?)?,
+        shape,
         attach: table.read("attach", attach)?.unwrap_or(At::new(Attach::Scene, table.span.clone())),
         translation: table.read("translation", Item::vector)?.unwrap_or_default(),
         rotation: table.read("rotation", Item::rotation)?.unwrap_or_default(),
@@ -30,7 +33,7 @@ pub fn read(item: &Item) -> Result<LensSpec, InputError> {
         only: table.read("only", matches)?.unwrap_or_default(),
         except: table.read("except", matches)?.unwrap_or_default(),
         soft: table.read("soft", |item| item.number(NumberRange::NOT_NEGATIVE))?.unwrap_or(0.0),
-        glass: table.read("glass", glass)?.unwrap_or(Some(Glass::default())),
+        glass: table.read("glass", glass)?.unwrap_or(glass_unless_given),
     })
 }
 
@@ -41,6 +44,10 @@ pub fn is_name_char(c: char) -> bool {
 
 fn name(item: &Item) -> Result<At<String>, InputError> {
     let text = item.text()?;
+    if text.len() > MAX_NAME {
+        let message = format!("a lens name has at most {MAX_NAME} characters, and this one has {}", text.chars().count());
+        return Err(item.error(message).help("give it a shorter name"));
+    }
     match text.chars().find(|c| !is_name_char(*c)) {
         None => Ok(item.at(text.to_owned())),
         Some(c) => Err(item

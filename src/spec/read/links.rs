@@ -4,14 +4,17 @@ use std::collections::HashMap;
 
 use super::suggest;
 use crate::InputError;
-use crate::lens::{MAX_LENSES, MAX_PARTS, MAX_RULES};
-use crate::spec::{At, Condition, Filter, LensSpec, Pattern, ShowWhat, Source, Spec};
+use crate::limits::{MAX_LENSES, MAX_PARTS, MAX_PLANES, MAX_RULES, MAX_WRITTEN_LENSES};
+use crate::spec::{At, Condition, Filter, LensSpec, Names, Pattern, Shape, ShowWhat, Source, Spec};
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
-    let links = Links { source: &spec.source, spec };
+    let names = Names::new(spec.lenses.iter().map(|lens| lens.name.value.as_str()));
+    let links = Links { source: &spec.source, spec, names };
+    links.count_written()?;
     links.count()?;
     links.count_rules()?;
     links.count_parts()?;
+    links.count_planes()?;
     links.unique_names()?;
     for lens in &spec.lenses {
         links.lens(lens)?;
@@ -26,9 +29,18 @@ pub fn check(spec: &Spec) -> Result<(), InputError> {
 struct Links<'a> {
     source: &'a Source,
     spec: &'a Spec,
+    /// Of all lenses.
+    names: Names<'a>,
 }
 
 impl Links<'_> {
+    fn count_written(&self) -> Result<(), InputError> {
+        let Some(first_too_many) = self.spec.lenses.get(MAX_WRITTEN_LENSES) else { return Ok(()) };
+        let count = self.spec.lenses.len();
+        let message = format!("the file has {count} lenses, and at most {MAX_WRITTEN_LENSES} can be, disabled ones included");
+        Err(self.error(&first_too_many.name, message).help("leave out what is never enabled"))
+    }
+
     fn count(&self) -> Result<(), InputError> {
         let enabled = || self.spec.lenses.iter().filter(|lens| lens.enabled);
         let Some(first_too_many) = enabled().nth(MAX_LENSES) else { return Ok(()) };
@@ -49,6 +61,26 @@ impl Links<'_> {
         let message =
             format!("the shapes of the enabled lenses have {} parts, and at most {MAX_PARTS} can be", parts().count());
         Err(self.error(first_too_many, message).help("a hull or a mesh is one part, however many faces it has"))
+    }
+
+    /// All planes of polytopes and corners of flat lenses.
+    fn count_planes(&self) -> Result<(), InputError> {
+        let enabled = self.spec.lenses.iter().filter(|lens| lens.enabled);
+        let mut count = 0;
+        let mut first_too_many = None;
+        for part in enabled.flat_map(|lens| lens.shape.parts()) {
+            count += match &part.value {
+                Shape::Polytope { planes } => planes.len(),
+                Shape::Flat { corners, .. } => corners.len(),
+                _ => 0,
+            };
+            first_too_many = first_too_many.or((count > MAX_PLANES).then_some(part));
+        }
+        let Some(part) = first_too_many else { return Ok(()) };
+        let message = format!(
+            "the enabled lenses have {count} planes of polytopes and corners of flat lenses, and at most {MAX_PLANES} can be"
+        );
+        Err(self.error(part, message).help("a `hull` or a `mesh` may have any number of faces"))
     }
 
     fn unique_names(&self) -> Result<(), InputError> {
@@ -76,11 +108,13 @@ impl Links<'_> {
     /// An edge must lead to a lens other than its own (SEMANTICS 3.1).
     fn other_lens(&self, lens: &LensSpec, key: &str, pattern: &At<Pattern>) -> Result<(), InputError> {
         let name = &lens.name.value;
-        let others = self.spec.lenses.iter().map(|other| other.name.value.as_str()).filter(|other| other != name);
-        if others.clone().any(|other| pattern.value.matches(other)) {
+        let matches_itself = pattern.value.matches(name);
+        // Names are unique, so what matches more than once matches another.
+        if self.names.count(&pattern.value, 2) > usize::from(matches_itself) {
             return Ok(());
         }
-        if !pattern.value.matches(name) {
+        if !matches_itself {
+            let others = self.names.iter().filter(|other| other != name);
             return Err(self.no_match(&format!("`{key}` of lens `{name}` names"), pattern, others));
         }
         let message = format!("`{key}` of lens `{name}` names no lens but itself: \"{}\"", pattern.value);
@@ -89,13 +123,10 @@ impl Links<'_> {
 
     fn condition(&self, condition: &Condition) -> Result<(), InputError> {
         match condition {
-            Condition::Lens(pattern) => {
-                let names = self.spec.lenses.iter().map(|lens| lens.name.value.as_str());
-                match names.clone().any(|name| pattern.value.matches(name)) {
-                    true => Ok(()),
-                    false => Err(self.no_match("`when` names", pattern, names)),
-                }
-            }
+            Condition::Lens(pattern) => match self.names.any(&pattern.value) {
+                true => Ok(()),
+                false => Err(self.no_match("`when` names", pattern, self.names.iter())),
+            },
             Condition::Not(inner) => self.condition(inner),
             Condition::And(left, right) | Condition::Or(left, right) => {
                 self.condition(left)?;
@@ -106,8 +137,8 @@ impl Links<'_> {
 
     fn filters(&self, filters: &[At<Filter>]) -> Result<(), InputError> {
         for filter in filters {
-            if let Filter::Show(ShowWhat::Alternate(alternate)) = &filter.value {
-                self.alternate(alternate)?;
+            if let Filter::Show(ShowWhat::Alternate { name, .. }) = &filter.value {
+                self.alternate(name)?;
             }
         }
         Ok(())

@@ -9,6 +9,7 @@ use super::item::kind_of;
 use super::{keys, suggest};
 use crate::InputError;
 use crate::spec::Source;
+use crate::spec::catalogue::{self, ShapeRow};
 
 /// One word of a dotted key.
 struct Word {
@@ -84,9 +85,9 @@ fn with_shape(document: &DeTable, source: &Source, mut path: Vec<Word>) -> Resul
         let lenses = document.get("lens")?.get_ref().as_array()?;
         let lens = &lenses[place(lenses, &name.text)?];
         let (kind, _) = lens.get_ref().as_table()?.get("shape")?.get_ref().as_table()?.iter().next()?;
-        keys::SHAPES.iter().find(|(shape, _)| shape == kind.get_ref())
+        catalogue::shape(kind.get_ref())
     };
-    let Some((kind, known)) = shape() else { return Ok(path) };
+    let Some(ShapeRow { name: kind, keys: known, .. }) = shape() else { return Ok(path) };
     if !known.contains(&key.text.as_str()) {
         let message = format!("neither lens `{}` nor its `{kind}` has a key `{}`", name.text, key.text);
         let names = known.iter().chain(keys::LENS).copied();
