@@ -34,6 +34,10 @@ pub fn page(subcommand: Option<&str>) -> Result<(), InputError> {
         },
     };
     let mut text = Vec::new();
-    Man::new(page).render(&mut text).map_err(|error| InputError::new(format!("no manual page: {error}")))?;
+    let source = concat!("lenspeel ", env!("CARGO_PKG_VERSION"));
+    Man::new(page)
+        .source(source)
+        .render(&mut text)
+        .map_err(|error| InputError::new(format!("no manual page: {error}")))?;
     print(&String::from_utf8_lossy(&text))
 }
