@@ -26,7 +26,9 @@ fn main() {
     let mut contenders: Vec<Contender<Infallible>> = Vec::new();
     for (i, (name, _)) in names.into_iter().enumerate() {
         let renderer = &renderers[i];
-        contenders.push(timed(name, move || std::hint::black_box(renderer.render(false, &|_| ()).expect("a frame")).pixels.len()));
+        contenders.push(timed(name, move || {
+            std::hint::black_box(renderer.render(false, &|_| ()).expect("a frame")).pixels.len()
+        }));
     }
     contenders.push(timed(VISIBILITY, || std::hint::black_box(renderers[0].depths()).len()));
     contenders.push(timed("set up", || {

@@ -40,7 +40,8 @@ fn main() -> Result<(), String> {
     let adapter = gpu::choose_named(None).map_err(|error| error.to_string())?;
     let device = gpu::Headless::new(&adapter).map_err(|error| error.to_string())?;
     let renderer = RefCell::new(device.renderer(&scene).map_err(|error| error.to_string())?);
-    let on_cpu: Vec<cpu::Renderer> = plans.iter().map(|plan| cpu::Renderer::new(&scene, plan).expect("a plan of this scene")).collect();
+    let on_cpu: Vec<cpu::Renderer> =
+        plans.iter().map(|plan| cpu::Renderer::new(&scene, plan).expect("a plan of this scene")).collect();
     let mut contenders = Vec::new();
     for (plan, name) in plans.iter().zip(&names) {
         contenders.push(on_gpu(&device, &renderer, &scene, plan, name));

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::plan::Region;
+use crate::plan::{LensSet, Region};
 
 /// Stands in the maps of indices where nothing is.
 pub const NOTHING: u32 = u32::MAX;
@@ -89,6 +89,49 @@ impl Aovs {
     /// The region of each pixel's visible fragment; `None` where nothing is.
     pub fn region(&self, pixel: usize) -> Option<Region> {
         self.table.get(self.regions[pixel] as usize).copied()
+    }
+}
+
+/// What lies in front of the visible fragments, at the centres of a picture's pixels.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InFront {
+    /// By rank, of lenses and rules: the pixels in which it takes something away in front of what is visible, or where
+    /// nothing is left.
+    pub removes: Vec<u64>,
+    /// By rank: the pixels in which it acts on something that is seen through.
+    pub seen_through: Vec<u64>,
+    /// The pixels in which something of a region is seen through.
+    pub regions: HashMap<Region, u64>,
+    /// For each pixel the region of the nearest surface that lenses leave, opaque or not, into `table`; [`NOTHING`] where
+    /// nothing is.
+    pub nearest: Vec<u32>,
+    pub table: Vec<Region>,
+}
+
+impl InFront {
+    /// Of so many lenses and rules, with these nearest surfaces.
+    pub(crate) fn of(ranks: usize, nearest: Vec<u32>) -> Self {
+        Self { removes: vec![0; ranks], seen_through: vec![0; ranks], nearest, ..Self::default() }
+    }
+
+    /// Adds the counts of other pixels.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.removes.iter_mut().zip(other.removes).for_each(|(all, own)| *all += own);
+        self.seen_through.iter_mut().zip(other.seen_through).for_each(|(all, own)| *all += own);
+        other.regions.into_iter().for_each(|(region, own)| *self.regions.entry(region).or_default() += own);
+    }
+
+    /// Takes one pixel: who takes away in front of it, and the regions of what is seen through, each once.
+    pub(crate) fn count(&mut self, removers: LensSet, seen_through: &[Region]) {
+        removers.iter().for_each(|rank| self.removes[rank] += 1);
+        let acting = seen_through.iter().fold(LensSet::EMPTY, |all, region| all | region.stack);
+        acting.iter().for_each(|rank| self.seen_through[rank] += 1);
+        seen_through.iter().for_each(|region| *self.regions.entry(*region).or_default() += 1);
+    }
+
+    /// The maps of a picture with the nearest surfaces' regions in place of those of the visible fragments.
+    pub fn nearest_regions(&self, aovs: &Aovs) -> Aovs {
+        Aovs { regions: self.nearest.clone(), table: self.table.clone(), ..aovs.clone() }
     }
 }
 

@@ -28,7 +28,7 @@ fn put(pixel: vec2u, filtered: vec4f) {
     }
     let ray = pixel_ray(pixel);
     let position = ray.origin + ray.direction * samples[at].depth;
-    let amount = soft_amount(step.y, samples[at].item - 1u, position);
+    let amount = soft_amount(step.y, (samples[at].item & ~SEEN_CAP) - 1u, position);
     samples[at].color = mix(samples[at].color, filtered, amount);
 }
 
@@ -96,12 +96,22 @@ fn is_other_region(a: u32, b: u32) -> bool {
     return false;
 }
 
+// Whether two pixels see caps of different nodes: sections of parts that may lie in one plane.
+fn is_other_section(a: u32, b: u32) -> bool {
+    if (samples[a].item & samples[b].item & SEEN_CAP) == 0u {
+        return false;
+    }
+    let p = (samples[a].item & ~SEEN_CAP) - 1u;
+    let q = (samples[b].item & ~SEEN_CAP) - 1u;
+    return items[p].node != items[q].node || ((items[p].flags ^ items[q].flags) & ITEM_ALTERNATE) != 0u;
+}
+
 fn marks_for(op: Op, own: u32, seen: Seen, pixel: vec2u, comes_after: bool) -> bool {
     let other = place(pixel);
     var border = BORDER_NONE;
     if !acts(other) {
         border = BORDER_OF_FILTER;
-    } else if is_other_region(own, other) {
+    } else if is_other_region(own, other) || is_other_section(own, other) {
         border = BORDER_OF_REGION;
     }
     return edges_mark(op, seen, seen_at(pixel), border, comes_after);

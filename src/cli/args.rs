@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ColorChoice, Parser, Subcommand, ValueEnum};
 
+use super::open::OpenArgs;
 use super::outputs::is_stream;
 use crate::InputError;
 use crate::limits::MAX_SPEC_BYTES;
@@ -35,6 +36,8 @@ pub enum Command {
         /// Fail on warnings, too: lenses whose order only the file decides, patterns that match nothing
         #[arg(long)]
         strict: bool,
+        #[command(flatten)]
+        open: OpenArgs,
     },
     /// Explain the order of the lenses, what acts where, and how much of the picture each region takes
     Explain(ExplainArgs),
@@ -42,11 +45,8 @@ pub enum Command {
     Pick(PickArgs),
     /// Measure what the lenses of a lens-spec file cost on the GPU
     Bench(BenchArgs),
-    /// Describe a glTF model
-    Info {
-        /// A .glb or .gltf file
-        model: PathBuf,
-    },
+    /// Describe a glTF model: what it shows, and the names that specs select by
+    Info(InfoArgs),
     /// Write a starter spec for a glTF model
     Init {
         /// A .glb or .gltf file
@@ -54,6 +54,8 @@ pub enum Command {
         /// Where to write it; left out: to the terminal
         #[arg(short, long)]
         output: Option<PathBuf>,
+        #[command(flatten)]
+        open: OpenArgs,
     },
     /// List the filters with their parameters
     Filters {
@@ -129,6 +131,23 @@ impl Command {
 }
 
 #[derive(Debug, Args)]
+pub struct InfoArgs {
+    /// A .glb or .gltf file
+    pub model: PathBuf,
+    /// Only nodes and materials of these names, as a spec would select them: 'Wheel*'
+    #[arg(value_name = "PATTERN")]
+    pub patterns: Vec<String>,
+    /// Each node and each name whole, where otherwise siblings with like names are one line
+    #[arg(long)]
+    pub all: bool,
+    /// Print JSON, always whole
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub open: OpenArgs,
+}
+
+#[derive(Debug, Args)]
 pub struct RenderArgs {
     #[command(flatten)]
     pub spec: SpecArgs,
@@ -165,6 +184,8 @@ pub struct RenderArgs {
     /// Write the times of all stages and the sizes of things to a JSON file
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 /// A spec and how it is seen by the commands that tell about a picture.
@@ -179,6 +200,8 @@ pub struct ViewArgs {
     /// be started
     #[arg(long, value_enum)]
     pub backend: Option<BackendChoice>,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]
@@ -194,6 +217,8 @@ pub struct BenchArgs {
     /// Print JSON with every single frame instead of a table
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]

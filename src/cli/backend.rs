@@ -8,7 +8,7 @@ use super::stages::Stages;
 use super::streams::Messages;
 use crate::InputError;
 use crate::cpu;
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, InFront};
 use crate::lens::LayerStart;
 use crate::pick::Pick;
 use crate::pixel::PixelReport;
@@ -108,6 +108,11 @@ impl Backend {
             _ => Err(no_picture(error)),
         }
     }
+}
+
+/// What lies in front of what is visible, which the CPU finds whoever renders.
+pub fn in_front(scene: &Scene, plan: &Plan) -> Result<InFront, InputError> {
+    Ok(cpu::Renderer::new(scene, plan)?.in_front()?)
 }
 
 impl Backend {
@@ -233,16 +238,18 @@ mod tests {
         let plan = Plan::new(&spec, &scene).expect("a plan");
         // A renderer fails for good on a plan of another scene; the CPU then says what is wrong in its own words.
         let other = Scene::new(vec![crate::scene::Model::default()], Vec::new());
-        let mut backend = Backend::Gpu { device, or_cpu: false, gave_up: Cell::new(false) };
-        let error = backend.maps(&other, &plan, &mut Stages::default()).expect_err("another scene");
+        let messages = Messages { quiet: true, color: clap::ColorChoice::Never };
+        let stages = || Stages::new(messages);
+        let mut backend = Backend::Gpu { device, or_cpu: false, gave_up: Cell::new(false), messages };
+        let error = backend.maps(&other, &plan, &mut stages()).expect_err("another scene");
         assert!(error.message.starts_with("the GPU cannot make this picture"), "{error}");
         assert_eq!(backend.name(), "gpu");
         if let Backend::Gpu { or_cpu, .. } = &mut backend {
             *or_cpu = true;
         }
-        let error = backend.maps(&other, &plan, &mut Stages::default()).expect_err("another scene");
+        let error = backend.maps(&other, &plan, &mut stages()).expect_err("another scene");
         assert!(error.message.starts_with("the plan was made for another scene"), "{error}");
         assert_eq!(backend.name(), "cpu");
-        assert!(backend.maps(&scene, &plan, &mut Stages::default()).is_ok(), "the CPU goes on");
+        assert!(backend.maps(&scene, &plan, &mut stages()).is_ok(), "the CPU goes on");
     }
 }

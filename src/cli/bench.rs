@@ -40,7 +40,7 @@ struct Contents {
 pub fn run(args: &BenchArgs, messages: Messages) -> Result<(), InputError> {
     let mut spec = args.spec.load()?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
-    let scene = Scene::open(&spec)?;
+    let scene = Scene::open_with(&spec, &args.open.options())?;
     let plan = Plan::new(&spec, &scene)?;
     for warning in &plan.warnings {
         messages.warning(warning);

@@ -1,19 +1,22 @@
 //! `lenspeel check`.
 
 use super::args::SpecArgs;
-use crate::InputError;
 use crate::plan::{Account, Plan};
-use crate::scene::Scene;
+use crate::scene::{OpenOptions, Scene};
 use crate::words::count_of;
+use crate::{InputError, cpu};
 
 /// Opens and decides everything, prints warnings, and fails on them where `strict`.
-pub fn run(spec: &SpecArgs, strict: bool) -> Result<(), InputError> {
+pub fn run(spec: &SpecArgs, strict: bool, options: &OpenOptions) -> Result<(), InputError> {
     let spec = spec.load()?;
-    let scene = Scene::open(&spec)?;
+    let scene = Scene::open_with(&spec, options)?;
     let plan = Plan::new(&spec, &scene)?;
     let account = Account::new(&spec, &plan);
-    let findings = plan.warnings.len() + account.undecided.len();
-    let mut text: String = plan.warnings.iter().map(|w| format!("warning: {w}\n")).collect();
+    // On the GPU nodes share their meshes: a warning, no error.
+    let memory = cpu::check_memory(&scene, &plan).err().map(|error| error.to_string());
+    let warnings: Vec<&String> = plan.warnings.iter().chain(&memory).collect();
+    let findings = warnings.len() + account.undecided.len();
+    let mut text: String = warnings.iter().map(|w| format!("warning: {w}\n")).collect();
     text += &account.undecided_text();
     super::print(&text)?;
     if strict && findings > 0 {

@@ -48,7 +48,11 @@ impl Excerpt {
             line.map_or(0, |line| {
                 let Line { kept, at: own, .. } = &self.lines[line];
                 // A line's own end, its break included, stays behind what is kept of it.
-                let behind = if kept.end - kept.start < SHOWN { at.saturating_sub(kept.start) } else { at.clamp(kept.start, kept.end) - kept.start };
+                let behind = if kept.end - kept.start < SHOWN {
+                    at.saturating_sub(kept.start)
+                } else {
+                    at.clamp(kept.start, kept.end) - kept.start
+                };
                 (own + behind).min(self.text.len())
             })
         });

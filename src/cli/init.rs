@@ -8,7 +8,7 @@ use super::outputs;
 use super::streams::Messages;
 use crate::InputError;
 use crate::output::{Place, folder_of};
-use crate::scene::{Aabb, Model};
+use crate::scene::{Aabb, Model, OpenOptions};
 use crate::spec::Spec;
 
 /// What `lenspeel init` looks along: from the right, above and in front.
@@ -17,7 +17,12 @@ const VIEW: DVec3 = DVec3::new(1.0, 0.7, 1.3);
 const FOV_Y: f64 = 45.0;
 
 /// Writes a starter spec, to standard output where no file is named.
-pub fn run(path: &Path, output: Option<&Path>, messages: Messages) -> Result<(), InputError> {
+pub fn run(
+    path: &Path,
+    output: Option<&Path>,
+    options: &OpenOptions,
+    messages: Messages,
+) -> Result<(), InputError> {
     let output = output.unwrap_or(Path::new(outputs::STREAM));
     let into_file = !outputs::is_stream(output) && matches!(Place::of(output)?, Place::File(_));
     if into_file && output.exists() {
@@ -25,7 +30,7 @@ pub fn run(path: &Path, output: Option<&Path>, messages: Messages) -> Result<(),
         return Err(InputError::new(message).help("choose another name, or remove it first"));
     }
     outputs::check_whole(output, "the starter spec", "toml")?;
-    let model = Model::load(path, None)?;
+    let model = Model::load_with(path, None, options)?;
     let file = if into_file { relative(path, folder_of(output)) } else { std::path::absolute(path).ok() };
     let file = file.unwrap_or_else(|| path.to_path_buf());
     let name = file.to_str().ok_or_else(|| {

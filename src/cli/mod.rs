@@ -13,6 +13,7 @@ mod init;
 mod manual;
 #[cfg(all(target_os = "linux", feature = "gpu"))]
 mod mesa;
+mod open;
 mod outputs;
 mod render;
 mod report;
@@ -30,12 +31,11 @@ use std::sync::atomic::Ordering;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, ValueEnum};
 
 use crate::InputError;
-use crate::scene::Model;
 use args::{Cli, Command};
 use streams::{Messages, print, print_json, print_text};
 
 pub use filters::{filter_text, filters_index, filters_markdown, filters_text};
-pub use info::info_text;
+pub use info::{InfoChoice, info_json, info_text};
 pub use init::init_text;
 pub use report::report;
 pub use schema::{keys_markdown, schema};
@@ -97,7 +97,7 @@ fn color_of(mut arguments: impl Iterator<Item = std::ffi::OsString>) -> ColorCho
 fn run_command(command: Command, messages: Messages) -> Result<(), InputError> {
     match command {
         Command::Render(args) => render::run(&args, messages),
-        Command::Check { spec, strict } => check::run(&spec, strict),
+        Command::Check { spec, strict, open } => check::run(&spec, strict, &open.options()),
         Command::Explain(args) => explain::run(&args, messages),
         Command::Pick(args) => explain::pick(&args, messages),
         #[cfg(feature = "gpu")]
@@ -107,8 +107,8 @@ fn run_command(command: Command, messages: Messages) -> Result<(), InputError> {
             "`bench` measures the GPU backend, and this program was built without the `gpu` feature",
         )
         .help("build it with default features")),
-        Command::Info { model } => print(&info_text(&Model::load(&model, None)?)),
-        Command::Init { model, output } => init::run(&model, output.as_deref(), messages),
+        Command::Info(args) => info::run(&args),
+        Command::Init { model, output, open } => init::run(&model, output.as_deref(), &open.options(), messages),
         Command::Filters { name: Some(name), .. } => print_text(&filters::filter_text(&name)?),
         Command::Filters { markdown, .. } => print(&if markdown { filters_markdown() } else { filters_text() }),
         Command::Shapes { name: Some(name), .. } => print_text(&shapes::shape_text(&name)?),

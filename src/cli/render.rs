@@ -15,7 +15,7 @@ use crate::frame::Frame;
 use crate::legend;
 use crate::output::{encode_aov, encode_picture};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{OpenOptions, Scene};
 use crate::spec::Spec;
 use crate::words::count_of;
 
@@ -31,7 +31,7 @@ pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
     // A device takes as long to open as many a scene.
     let (opened, device) = std::thread::scope(|scope| {
         let device = scope.spawn(|| backend::choose(args.backend, messages));
-        (open(&spec, &mut stages), stages.time("device", || device.join()))
+        (open(&spec, &args.open.options(), &mut stages), stages.time("device", || device.join()))
     });
     let (scene, plan) = opened?;
     for warning in &plan.warnings {
@@ -59,8 +59,8 @@ pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
     Ok(())
 }
 
-fn open(spec: &Spec, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
-    let scene = stages.time("scene", || Scene::open(spec))?;
+fn open(spec: &Spec, options: &OpenOptions, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
+    let scene = stages.time("scene", || Scene::open_with(spec, options))?;
     let plan = stages.time("plan", || Plan::new(spec, &scene))?;
     Ok((scene, plan))
 }
@@ -85,7 +85,7 @@ fn draw_view(
             return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs))
+    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
 }
 
 /// Whether the legend shows all that was asked for.

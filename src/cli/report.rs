@@ -13,9 +13,21 @@ use crate::InputError;
 use crate::error::shortened;
 use crate::spec::Source;
 
-/// The error as a block of text; colours only where the terminal shows them. No line is broken to fit a width, which
-/// would fall into paths: a terminal does that without changing the text.
+/// Of several errors so many are shown.
+const MOST: usize = 20;
+
+/// The error as a block of text; colours only where the terminal shows them. Others behind it, each as a block of its own.
+/// No line is broken to fit a width, which would fall into paths: a terminal does that without changing the text.
 pub fn report(error: &InputError, color: bool) -> String {
+    let shown = std::iter::once(error).chain(&error.others).take(MOST);
+    let mut text: String = shown.map(|error| one(error, color)).collect();
+    if let more @ 1.. = (1 + error.others.len()).saturating_sub(MOST) {
+        text += &format!("  and {more} more\n");
+    }
+    text
+}
+
+fn one(error: &InputError, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
     let mut text = String::new();

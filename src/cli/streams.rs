@@ -57,8 +57,8 @@ pub fn write_out(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result
 
 /// What an attempt to write to standard output comes to.
 pub fn settle(written: io::Result<()>) -> Result<(), InputError> {
-    let is_closed = IS_CLOSED.load(Ordering::Relaxed);
-    match if is_closed { Err(io::Error::other("it is closed")) } else { written } {
+    let written = if IS_CLOSED.load(Ordering::Relaxed) { Err(io::Error::other("it is closed")) } else { written };
+    match written {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(InputError::new(format!("standard output cannot be written: {error}"))
             .help("what it was redirected to may be full or closed")),

@@ -1,20 +1,23 @@
 //! A whole picture, tile by tile.
 
+mod in_front;
+
 use glam::Vec4;
 use rayon::prelude::*;
 
 use super::block::Block;
 use super::convert::{g3, v3};
+use super::memory;
 use super::pixel::{Scratch, Tracer};
 use super::screen::{self, Plane};
-use crate::appearance as wgsl;
 use crate::InputError;
+use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, NoMemory, RegionTable, check_memory, filled};
 use crate::lens::{LayerStart, PixelRect, RayLayers};
 use crate::pick::Pick;
 use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Scene, TO_TAKE_LESS};
 
 /// Rows of a picture whose samples are kept at once, for filters of the screen.
 const BAND: u32 = 128;
@@ -30,6 +33,9 @@ const BLOCK: u32 = 16;
 pub enum Error {
     #[error("the plan was made for another scene than the one that is drawn")]
     OtherScene,
+    /// With the numbers; see [`OpenOptions::memory_limit`](crate::scene::OpenOptions::memory_limit).
+    #[error("{0}")]
+    TooLarge(String),
     #[error(transparent)]
     NoMemory(#[from] NoMemory),
 }
@@ -38,6 +44,7 @@ impl From<Error> for InputError {
     fn from(error: Error) -> Self {
         let help = match error {
             Error::OtherScene => "make a plan of this scene with `Plan::new`",
+            Error::TooLarge(_) => TO_TAKE_LESS,
             Error::NoMemory(_) => "make it smaller, or leave maps out",
         };
         InputError::new(error.to_string()).help(help)
@@ -75,11 +82,12 @@ struct Center {
 
 impl<'a> Renderer<'a> {
     /// # Errors
-    /// The plan was made for another scene.
+    /// The plan was made for another scene, or its triangles exceed the memory limit that the scene was opened with.
     pub fn new(scene: &'a Scene, plan: &'a Plan) -> Result<Self, Error> {
         if plan.scene != scene.id {
             return Err(Error::OtherScene);
         }
+        memory::check_memory(scene, plan)?;
         Ok(Self { plan, tracer: Tracer::new(scene, plan) })
     }
 

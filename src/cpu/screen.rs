@@ -7,7 +7,7 @@ use super::convert::{d3, g3, g4, v3, v4};
 use super::shade::soft_amount;
 use crate::appearance as wgsl;
 use crate::lens::{LensSet, PixelRect};
-use crate::pixel::Visible;
+use crate::pixel::{Visible, cap_maker};
 use crate::plan::{Plan, Region, ScreenStep};
 use crate::view::Projection;
 
@@ -27,6 +27,7 @@ struct Point {
     seen: wgsl::Seen,
     /// Into [`Plan::instances`].
     instance: u32,
+    is_cap: bool,
     /// The lenses around it, and those that act.
     set: LensSet,
     stack: LensSet,
@@ -38,7 +39,7 @@ impl Plane {
         let along = |number: u32| (f64::from(number) + 0.5) / f64::from(side);
         let zero = v3(glam::Vec3::ZERO);
         let seen = wgsl::Seen { found: 0, depth: 0.0, position: zero, normal: zero, span: 0.0 };
-        let nothing = Point { seen, instance: 0, set: LensSet::EMPTY, stack: LensSet::EMPTY };
+        let nothing = Point { seen, instance: 0, is_cap: false, set: LensSet::EMPTY, stack: LensSet::EMPTY };
         let count = rect.area() as usize;
         let at = [along(sample % side), along(sample / side)];
         Self { rect, at, colors: vec![Vec4::ZERO; count], seen: vec![nothing; count] }
@@ -58,7 +59,8 @@ impl Plane {
         let position = d3(ray.at(depth) - view.eye);
         let seen = wgsl::Seen { found: 1, depth: fragment.depth, position, normal: v3(*normal), span: span as f32 };
         let Region { set, stack } = fragment.region;
-        self.seen[at] = Point { seen, instance: fragment.instance, set, stack };
+        let is_cap = cap_maker(fragment.triangle).is_some();
+        self.seen[at] = Point { seen, instance: fragment.instance, is_cap, set, stack };
     }
 
     fn width(&self) -> usize {
@@ -138,7 +140,7 @@ impl Plane {
 
     fn draw_edges(&mut self, plan: &Plan, op: wgsl::Op, rank: usize) {
         let places = 0..self.colors.len();
-        let marks: Vec<bool> = places.into_par_iter().map(|place| self.has_mark(op, rank, place)).collect();
+        let marks: Vec<bool> = places.into_par_iter().map(|place| self.has_mark(plan, op, rank, place)).collect();
         let reach = wgsl::edges_reach(op) as u32;
         self.put_all(plan, rank, |plane, place| {
             let [x, y] = plane.pixel(place);
@@ -154,7 +156,7 @@ impl Plane {
     }
 
     /// Whether a line lies on a pixel.
-    fn has_mark(&self, op: wgsl::Op, rank: usize, place: usize) -> bool {
+    fn has_mark(&self, plan: &Plan, op: wgsl::Op, rank: usize, place: usize) -> bool {
         let p = &self.seen[place];
         if !self.acts(place, rank) {
             return false;
@@ -164,7 +166,7 @@ impl Plane {
             let q = &self.seen[other];
             let border = match () {
                 () if !self.acts(other, rank) => wgsl::BORDER_OF_FILTER,
-                () if q.set != p.set => wgsl::BORDER_OF_REGION,
+                () if q.set != p.set || is_other_section(plan, p, q) => wgsl::BORDER_OF_REGION,
                 () => wgsl::BORDER_NONE,
             };
             wgsl::edges_mark(op, p.seen, q.seen, border.0, comes_after)
@@ -174,6 +176,12 @@ impl Plane {
             self.along(place, 1, 1).filter(|(number, _)| *number != y).map(|(number, other)| (number > y, other));
         row.chain(column).any(|(comes_after, other)| mark(comes_after, other))
     }
+}
+
+/// Whether caps of different nodes are seen: sections of parts that may lie in one plane.
+fn is_other_section(plan: &Plan, p: &Point, q: &Point) -> bool {
+    let item = |point: &Point| &plan.items[plan.instances[point.instance as usize].item];
+    p.is_cap && q.is_cap && (item(p).node, item(p).is_alternate()) != (item(q).node, item(q).is_alternate())
 }
 
 /// The sums of all samples' filtered colours for the pixels of a part of the planes' rectangle, row by row.

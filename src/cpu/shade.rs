@@ -9,7 +9,7 @@ use super::custom::Site;
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::{Fragment, cap_maker};
-use crate::plan::{Instance, Item, LensSet, Op, Plan};
+use crate::plan::{Instance, Item, LensSet, Op, OwnSurface, Plan};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
@@ -25,6 +25,10 @@ pub struct Shader<'a> {
     /// Of each item, for each of the plan's channels, where it has one.
     values: Vec<Vec<Option<VertexValues<'a>>>>,
     forward: Vec3,
+    /// Of each body, where caps show its own colours.
+    own: Vec<Option<OwnSurface>>,
+    /// Of each instance, its body.
+    bodies: Vec<Option<u32>>,
 }
 
 /// From local space to the world's axes around the eye as shown: for points, and for normals.
@@ -152,7 +156,13 @@ impl<'a> Shader<'a> {
             };
             plan.channels.iter().map(of).collect()
         };
+        let mut bodies = vec![None; plan.instances.len()];
+        for (number, body) in (0u32..).zip(&plan.bodies) {
+            body.members.iter().for_each(|member| bodies[member.instance] = Some(number));
+        }
         Self {
+            own: plan.bodies.iter().map(|body| OwnSurface::new(scene, plan, body)).collect(),
+            bodies,
             values: plan.items.iter().map(values).collect(),
             forward: plan.view.forward.as_vec3(),
             scene,

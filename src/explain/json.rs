@@ -2,7 +2,7 @@
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
-use super::{Coverage, Explanation, rule_line};
+use super::{Coverage, Explanation};
 use crate::output::Entry;
 use crate::plan::{LensSet, Reasons, Region};
 use crate::spec::Spec;
@@ -35,6 +35,19 @@ struct OrderedLens<'a> {
     hides: Vec<&'a str>,
     /// Null for the lowest.
     above_previous_because: Option<String>,
+    /// Null without a picture.
+    in_view: Option<InViewJson>,
+}
+
+/// What a lens does in a picture.
+#[derive(serde::Serialize)]
+struct InViewJson {
+    /// Where it acts on the visible fragment.
+    visible: Share,
+    /// Where it acts on something that is seen through.
+    seen_through: Share,
+    /// Where it takes something away in front of what is visible.
+    removes: Share,
 }
 
 /// A picture as a whole.
@@ -69,6 +82,8 @@ struct RegionJson<'a> {
     /// Of the picture; null without one.
     #[serde(flatten)]
     share: Option<Share>,
+    /// Where something of it is seen through; null without a picture.
+    seen_through: Option<Share>,
 }
 
 /// A lens of a region that does not act there.
@@ -99,10 +114,11 @@ impl Serialize for RegionList<'_> {
             id: *id,
             lenses: plan.names(region.set),
             stack: crate::output::stack(plan, *region),
-            rule_line: region.rule(plan).map(|rule| rule_line(explanation.spec, rule)),
+            rule_line: region.rule(plan).map(|rule| plan.rules[rule].line),
             hidden: hidden_json(&reasons, region),
             order: order_json(&reasons, region.stack),
             share: explanation.coverage.as_ref().map(|coverage| Share::new(coverage, coverage.pixels(region))),
+            seen_through: explanation.coverage.as_ref().map(|c| Share::new(c, c.seen_through(region))),
         }))
     }
 }
@@ -123,6 +139,11 @@ impl Explanation<'_> {
             overrides: lens.overrides,
             hides: self.plan.names(lens.hides),
             above_previous_because: rank.checked_sub(1).map(|below| self.account.order[below].to_string()),
+            in_view: self.coverage.as_ref().map(|coverage| InViewJson {
+                visible: Share::new(coverage, coverage.acts(rank)),
+                seen_through: Share::new(coverage, coverage.in_front.seen_through[rank]),
+                removes: Share::new(coverage, coverage.in_front.removes[rank]),
+            }),
         };
         self.plan.lenses.iter().enumerate().map(lens).collect()
     }

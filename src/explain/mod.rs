@@ -11,8 +11,9 @@ pub use pixel::{PixelAccount, point_text};
 
 use std::collections::HashSet;
 
-use crate::frame::Aovs;
+use crate::frame::{Aovs, InFront};
 use crate::limits::MAX_TOLD;
+use crate::output::Actor;
 use crate::plan::{Account, Plan, Region};
 use crate::spec::Spec;
 
@@ -33,11 +34,14 @@ impl<'a> Explanation<'a> {
         Self { spec, plan, account, regions: Vec::new(), untold: 0, coverage: None }.telling(&[])
     }
 
-    /// Adds what a picture of the plan shows: how much of it each region takes, and regions that only the picture found.
-    /// `backend` is who made it, in a word.
-    pub fn in_view(self, aovs: &Aovs, backend: &str) -> Self {
-        let coverage = Some(Coverage::new(self.plan.view.size, aovs, backend));
-        Self { coverage, ..self }.telling(&aovs.table)
+    /// Adds what a picture of the plan shows: how much of it each region takes, what lies in front of that, and regions that
+    /// only the picture found. `backend` is who made it, in a word.
+    pub fn in_view(self, aovs: &Aovs, in_front: InFront, backend: &str) -> Self {
+        let mut seen: Vec<Region> = in_front.regions.keys().copied().chain(aovs.table.iter().copied()).collect();
+        seen.sort_unstable();
+        seen.dedup();
+        let coverage = Some(Coverage::new(self.plan.view.size, aovs, in_front, backend));
+        Self { coverage, ..self }.telling(&seen)
     }
 
     /// Tells of all regions that are seen, and of so many others that one can read them.
@@ -57,16 +61,8 @@ impl<'a> Explanation<'a> {
 }
 
 /// Who acts at a rank of a stack: a lens by name, or a rule by its line.
-fn actor(spec: &Spec, plan: &Plan, rank: usize) -> String {
-    match plan.rule_of(rank) {
-        Some(rule) => format!("rule in line {}", rule_line(spec, rule)),
-        None => plan.lenses[rank].name.clone(),
-    }
-}
-
-/// The line of a rule's condition.
-fn rule_line(spec: &Spec, rule: usize) -> usize {
-    spec.source.line(spec.overlaps[rule].when.span.start)
+fn actor(plan: &Plan, rank: usize) -> String {
+    Actor::of(plan, rank).to_string()
 }
 
 /// The lenses of a set, or that there are none.

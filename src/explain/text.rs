@@ -3,6 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{Coverage, Explanation, actor, lenses};
+use crate::frame::InFront;
 use crate::plan::{Account, Plan, Reasons, Region};
 use crate::spec::Spec;
 
@@ -52,6 +53,9 @@ impl Explanation<'_> {
             if rank > 0 {
                 writeln!(f, "       above {}: {}", plan.lenses[rank - 1].name, account.order[rank - 1])?;
             }
+            if let Some(coverage) = &self.coverage {
+                writeln!(f, "       in view: {}", in_view_text(coverage, rank))?;
+            }
         }
         if plan.lenses.is_empty() {
             writeln!(f, "  no lens is enabled")?;
@@ -88,16 +92,19 @@ impl Explanation<'_> {
     fn write_table(&self, coverage: &Coverage, f: &mut Formatter<'_>) -> fmt::Result {
         let [width, height] = coverage.size;
         let by = &coverage.backend;
-        writeln!(
-            f,
-            "regions that occur: {}; shares of the picture's {width} x {height} pixels ({by})",
-            self.count()
-        )?;
+        writeln!(f, "regions that occur: {}; shares of the picture's {width} x {height} pixels ({by})", self.count())?;
         writeln!(f, "  id        share  lenses")?;
         let reasons = Reasons::new(self.spec, self.plan);
         for (id, region) in &self.regions {
-            let share = share_text(coverage, coverage.pixels(region));
-            writeln!(f, "{id:>4}  {share:>11}  {}", lenses(self.plan, region))?;
+            let through = match coverage.seen_through(region) {
+                0 => String::new(),
+                pixels => format!("; seen through in {}", share_text(coverage, pixels)),
+            };
+            let share = match coverage.pixels(region) {
+                0 if !through.is_empty() => "-".into(),
+                pixels => share_text(coverage, pixels),
+            };
+            writeln!(f, "{id:>4}  {share:>11}  {}{through}", lenses(self.plan, region))?;
             self.write_actors(region, &reasons, "                   ", f)?;
         }
         for (id, pixels, what) in
@@ -112,12 +119,28 @@ impl Explanation<'_> {
     fn write_actors(&self, region: &Region, reasons: &Reasons, indent: &str, f: &mut Formatter<'_>) -> fmt::Result {
         let acting = |rank: usize| {
             let filters: Vec<&str> = self.plan.filter_names(rank).collect();
-            format!("{} ({})", actor(self.spec, self.plan, rank), filters.join(", "))
+            format!("{} ({})", actor(self.plan, rank), filters.join(", "))
         };
         let stack: Vec<String> = region.stack.iter().map(acting).collect();
         writeln!(f, "{indent}stack: {}", stack.join(" < "))?;
         f.write_str(&reasons.lines(region, indent))
     }
+}
+
+/// What a lens does in a picture, in shares of its pixels.
+fn in_view_text(coverage: &Coverage, rank: usize) -> String {
+    let InFront { removes, seen_through, .. } = &coverage.in_front;
+    let parts = [
+        ("acts on what is visible in", coverage.acts(rank)),
+        ("on what is seen through in", seen_through[rank]),
+        ("takes something away in", removes[rank]),
+    ];
+    let parts: Vec<String> = parts
+        .into_iter()
+        .filter(|(_, pixels)| *pixels > 0)
+        .map(|(what, pixels)| format!("{what} {}", share_text(coverage, pixels)))
+        .collect();
+    if parts.is_empty() { "it does nothing".into() } else { parts.join(", ") }
 }
 
 fn share_text(coverage: &Coverage, pixels: u64) -> String {

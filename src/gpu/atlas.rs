@@ -2,8 +2,8 @@
 //!
 //! Shaders address texels themselves (`shaders/appearance/texture.wgsl`), so levels may lie anywhere.
 
-use super::{Error, alloc};
 use super::records::TextureInfo;
+use super::{Error, alloc};
 use crate::scene::TextureSet;
 
 /// The pages, seen as stored and with sRGB decoded, and where everything is.

@@ -165,7 +165,6 @@ impl Needs {
             caps: false,
             soft: false,
             translucent: false,
-            channels: 0,
             ..self.without_shading()
         };
         if !self.soft {

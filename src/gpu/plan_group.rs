@@ -1,6 +1,5 @@
 //! The plan on the device: the buffers of group 1, which live for one frame.
 
-
 use super::item_data::ItemData;
 use super::lens_data::LensData;
 use super::records::FrameRecord;

@@ -218,7 +218,7 @@ impl Renderer {
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
         let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
-        let cuts = cut_data::push_cuts(plan, &mut lenses.parts.words);
+        let cuts = cut_data::push_cuts(scene, plan, &self.scene, &mut lenses.parts.words);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
@@ -242,10 +242,14 @@ impl Renderer {
             || {
                 let program = program_of(options.engine, after.is_some());
                 let draws = self.draws(scene, plan, &window, skip, program, &unshaded);
-                let caps = needs.caps.then(|| CapSteps {
-                    draws: cut_data::draws(plan, &window, &self.scene),
-                    crossings: unshaded.crossings(store),
-                    find: unshaded.find_caps(store),
+                let caps = needs.caps.then(|| {
+                    let lids = cut_data::lid_draws(scene, plan, &window);
+                    CapSteps {
+                        draws: cut_data::draws(plan, &window, &self.scene),
+                        crossings: unshaded.crossings(store),
+                        lids: (!lids.is_empty()).then(|| (lids, unshaded.lids(store))),
+                        find: unshaded.find_caps(store),
+                    }
                 });
                 (draws, caps, cuts_layers.then(|| unshaded.layers(store)))
             },

@@ -37,7 +37,8 @@ impl ScreenJob {
             records.extend_from_slice(bytemuck::bytes_of(&record));
             records.resize(records.len().next_multiple_of(stride as usize), 0);
         }
-        let records = alloc::filled_buffer(device, "the plan's filters of the screen", &records, wgpu::BufferUsages::STORAGE)?;
+        let records =
+            alloc::filled_buffer(device, "the plan's filters of the screen", &records, wgpu::BufferUsages::STORAGE)?;
         let record = wgpu::BufferBinding {
             buffer: &records,
             offset: 0,

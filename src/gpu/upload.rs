@@ -38,6 +38,8 @@ pub struct SceneData {
     /// Which scene it is.
     pub id: SceneId,
     primitives: HashMap<Place, (Range, Vec<Cluster>)>,
+    /// Of each triangle in the order in which they are drawn, its number in its primitive.
+    numbers: Vec<u32>,
 }
 
 /// The shared buffers while they are filled.
@@ -139,7 +141,16 @@ impl SceneData {
                 numbers.as_entire_binding(),
             ],
         );
-        Ok(Self { positions, indices, bind_group, id: scene.id, primitives })
+        Ok(Self { positions, indices, bind_group, id: scene.id, primitives, numbers: lists.numbers })
+    }
+
+    /// Of each triangle of an item's version of its primitive, its place in the order in which they are drawn.
+    pub fn drawn_places(&self, item: &Item) -> Vec<u32> {
+        let first = self.primitive(item).0.first_number as usize;
+        let mut places = vec![0; item.triangles as usize];
+        let numbers = &self.numbers[first..first + places.len()];
+        (0u32..).zip(numbers).for_each(|(place, number)| places[*number as usize] = place);
+        places
     }
 
     /// Where an item's version of its primitive lies, and its clusters.

@@ -39,8 +39,22 @@ pub struct Entry {
 #[serde(rename_all = "lowercase")]
 pub enum Actor {
     Lens(String),
-    /// The n-th `[[overlap]]`, from 0.
-    Rule(usize),
+    Rule(NamedRule),
+}
+
+/// A rule: JSON has its number, people are told its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NamedRule {
+    /// Among the `[[overlap]]` of the file, from 0.
+    pub number: usize,
+    /// Of its condition, from 1.
+    pub line: usize,
+}
+
+impl Serialize for NamedRule {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.number.serialize(serializer)
+    }
 }
 
 /// Region numbers for each pixel and what they mean.
@@ -57,7 +71,8 @@ impl RegionMap {
     pub fn new(plan: &Plan, known: &[Region], aovs: &Aovs) -> Result<Self, InputError> {
         let numbered = numbered(plan, known, &aovs.table);
         if numbered.len() > MOST_NUMBERS {
-            let message = format!("the picture shows {} regions, and a region map tells {MOST_NUMBERS} apart", numbered.len());
+            let message =
+                format!("the picture shows {} regions, and a region map tells {MOST_NUMBERS} apart", numbered.len());
             return Err(InputError::new(message).help("leave out `--aov region`"));
         }
         let found = |(id, region): (usize, Region)| FoundRegion {
@@ -92,7 +107,7 @@ impl Actor {
     /// Who stands at a rank of stacks.
     pub fn of(plan: &Plan, rank: usize) -> Self {
         match plan.rule_of(rank) {
-            Some(rule) => Actor::Rule(rule),
+            Some(number) => Actor::Rule(NamedRule { number, line: plan.rules[number].line }),
             None => Actor::Lens(plan.lenses[rank].name.clone()),
         }
     }
@@ -102,7 +117,7 @@ impl std::fmt::Display for Actor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Actor::Lens(name) => f.write_str(name),
-            Actor::Rule(number) => write!(f, "rule {number}"),
+            Actor::Rule(NamedRule { line, .. }) => write!(f, "rule in line {line}"),
         }
     }
 }
@@ -115,7 +130,10 @@ impl Entry {
 
 impl std::fmt::Display for Entry {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}.{}", self.by, self.filter)
+        match &self.by {
+            Actor::Lens(name) => write!(f, "{name}.{}", self.filter),
+            Actor::Rule(_) => write!(f, "{} of the {}", self.filter, self.by),
+        }
     }
 }
 

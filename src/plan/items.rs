@@ -4,6 +4,7 @@ use super::{Lens, LensSet, Rule, instances};
 use glam::{DAffine3, DVec3};
 
 use crate::InputError;
+use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
 use crate::scene::{Aabb, Model, Primitive, Scene, Selections, Subject};
 use crate::spec::{At, By, Cap, Filter, Pattern, PatternSet, ShowWhat, Spec, lod};
@@ -110,7 +111,7 @@ impl Item {
     }
 
     /// What name patterns are held against.
-    pub(super) fn subject<'a>(&self, scene: &'a Scene, known: &'a Selections<'a>) -> Subject<'a> {
+    pub(crate) fn subject<'a>(&self, scene: &'a Scene, known: &'a Selections<'a>) -> Subject<'a> {
         let material = self.material - scene.material_base[self.model];
         Subject { model: &scene.models[self.model], node: self.node, material, known }
     }
@@ -135,14 +136,17 @@ pub(super) fn collect(
         let is_drawn = drawn(spec, model, content_index);
         let selected = content.only.as_ref().map(|only| only.masks(model));
         for node in 0..model.nodes.len() {
-            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_drawn[node]) else { continue };
+            let is_named = || selected.as_ref().is_some_and(|(nodes, _)| nodes[node]);
+            let is_there = is_drawn[node] && (!model.nodes[node].hidden || is_named());
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_there) else { continue };
             let bounds = model.primitive_bounds(node);
             let center = model.node_bounds(node).center();
             for (index, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
                 if primitive.triangles.is_empty() {
                     continue;
                 }
-                let is_selected = |(nodes, materials): &(Vec<bool>, Vec<bool>)| nodes[node] || materials[primitive.material];
+                let is_selected =
+                    |(nodes, materials): &(Vec<bool>, Vec<bool>)| nodes[node] || materials[primitive.material];
                 if !selected.as_ref().is_none_or(is_selected) {
                     continue;
                 }
@@ -319,15 +323,17 @@ fn model_of(alternate: &At<String>, scene: &Scene) -> usize {
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
     let mut contents = vec![Content { model: 0, only: None }];
     let mut shown: Vec<Content> = Vec::new();
+    let mut faults = Faults::default();
     let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
     let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
     for (enabled, filter) in of_lenses.chain(of_rules) {
         let Filter::Show(what) = &filter.value else { continue };
-        check_shown(spec, scene, what)?;
+        check_shown(spec, scene, what, &mut faults);
         if enabled {
             shown.push(content(what, scene));
         }
     }
+    faults.finish()?;
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
     for content in shown {
         if !contents.contains(&content) {
@@ -338,25 +344,24 @@ fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
 }
 
 /// What `show` names must be there.
-fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat) -> Result<(), InputError> {
+fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat, faults: &mut Faults) {
     let (model, nodes, materials) = match what {
         ShowWhat::Alternate { name, only } => {
             (&scene.models[model_of(name, scene)], only.nodes.as_slice(), only.materials.as_slice())
         }
         ShowWhat::Nodes(nodes) => (&scene.models[0], nodes.as_slice(), &[][..]),
     };
-    let refuse = |what: &str, pattern: &At<Pattern>, help: String| {
+    let mut refuse = |what: &str, pattern: &At<Pattern>, help: String| {
         let message = format!("`show` finds no {what} of `{}` that matches `{}`", model.name, pattern.value);
-        Err(InputError::at(&spec.source, pattern.span.clone(), message).help(help))
+        faults.note(InputError::at(&spec.source, pattern.span.clone(), message).help(help));
     };
     let (of_nodes, of_materials) = (model.node_names(), model.material_names());
-    if let Some(pattern) = nodes.iter().find(|p| !of_nodes.any(&p.value)) {
-        return refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
+    for pattern in nodes.iter().filter(|p| !of_nodes.any(&p.value)) {
+        refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
     }
-    if let Some(pattern) = materials.iter().find(|p| !of_materials.any(&p.value)) {
-        return refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
+    for pattern in materials.iter().filter(|p| !of_materials.any(&p.value)) {
+        refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
     }
-    Ok(())
 }
 
 /// For each node whether a content may have it: its model draws it, and the spec does not hide it.

@@ -12,6 +12,7 @@ mod lenses;
 mod light;
 mod op;
 mod order;
+mod own;
 mod reasons;
 mod regions;
 mod rules;
@@ -38,6 +39,7 @@ pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{LegendEntry, LegendLook, Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
+pub use own::OwnSurface;
 pub use reasons::Reasons;
 pub use regions::{Ended, Region, RegionSearch};
 pub use rules::{Rule, Test};
@@ -124,6 +126,7 @@ impl Plan {
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene)?;
+        warnings.extend(warnings::of_reach(spec, &lenses, &items, &instances));
         Ok(Self {
             scene: scene.id,
             samples: spec.image.samples,

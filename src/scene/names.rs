@@ -25,7 +25,7 @@ impl<'a> Subject<'a> {
         (lens.only.is_empty() || self.is_in(&lens.only)) && !self.is_in(&lens.except)
     }
 
-    fn is_in(&self, matches: &'a Matches) -> bool {
+    pub fn is_in(&self, matches: &'a Matches) -> bool {
         self.is_any(&matches.nodes, &matches.materials)
     }
 
@@ -78,7 +78,9 @@ pub(super) fn bound_comparisons(spec: &Spec, models: &[Model]) -> Result<(), Inp
     let nodes = names(&mut models.iter().flat_map(|model| &model.nodes).map(|node| &node.name));
     let materials = names(&mut models.iter().flat_map(|model| &model.materials).map(|material| &material.name));
     let (mut work, mut wild) = (0u64, 0);
-    for (list, (count, bytes)) in lists(spec).flat_map(|[of_nodes, of_materials]| [(of_nodes, nodes), (of_materials, materials)]) {
+    for (list, (count, bytes)) in
+        lists(spec).flat_map(|[of_nodes, of_materials]| [(of_nodes, nodes), (of_materials, materials)])
+    {
         let patterns = || list.iter().filter(|pattern| pattern.value.has_wildcard());
         let length: u64 = patterns().map(|pattern| pattern.value.0.len() as u64).sum();
         wild += patterns().count();
@@ -103,7 +105,8 @@ fn lists(spec: &Spec) -> impl Iterator<Item = [&[At<Pattern>]; 2]> {
     let scopes = spec.lenses.iter().flat_map(|lens| [&lens.only, &lens.except]);
     let scopes = scopes.map(|Matches { nodes, materials }| [nodes.as_slice(), materials.as_slice()]);
     let of_lenses = spec.lenses.iter().flat_map(|lens| &lens.filters);
-    let filters = of_lenses.chain(spec.overlaps.iter().flat_map(|rule| &rule.filters)).map(|filter| patterns_of(&filter.value));
+    let filters =
+        of_lenses.chain(spec.overlaps.iter().flat_map(|rule| &rule.filters)).map(|filter| patterns_of(&filter.value));
     std::iter::once([spec.scene.hide.as_slice(), &[]]).chain(scopes).chain(filters)
 }
 
@@ -133,14 +136,12 @@ impl Model {
 
     /// What to write instead of a node name that is not there.
     pub fn nearest_node_name(&self, name: &str) -> String {
-        let nearest = nearest(name, self.nodes.iter().map(|n| n.name.as_str()));
-        nearest.unwrap_or_else(|| "`lenspeel info` lists the nodes of a model".into())
+        help(nearest(name, self.nodes.iter().map(|n| n.name.as_str())), "nodes")
     }
 
     /// What to write instead of a material name that is not there.
     pub fn nearest_material_name(&self, name: &str) -> String {
-        let nearest = nearest(name, self.materials.iter().map(|m| m.name.as_str()));
-        nearest.unwrap_or_else(|| "`lenspeel info` lists the materials of a model".into())
+        help(nearest(name, self.materials.iter().map(|m| m.name.as_str())), "materials")
     }
 
     /// The nodes' names, to hold patterns against.
@@ -187,11 +188,18 @@ impl Model {
     }
 }
 
-/// A question after the name that is most like one, if any is.
-fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+fn help(nearest: Option<&str>, what: &str) -> String {
+    match nearest {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("`lenspeel info` lists the {what} of a model"),
+    }
+}
+
+/// The name that is most like one, if any is.
+pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = names.filter(|n| !n.is_empty()).map(|n| (strsim::jaro_winkler(n, name), n));
     let (score, nearest) = likeness.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (score > 0.8).then(|| format!("did you mean `{nearest}`?"))
+    (score > 0.8).then_some(nearest)
 }
 
 fn or_number(name: &str, kind: &str, number: usize) -> String {

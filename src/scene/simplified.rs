@@ -181,7 +181,7 @@ mod tests {
     fn a_closed_mesh_stays_closed() {
         let Simplified { triangles, .. } = Simplified::new(&ball(false), 0.05);
         let simplified = Primitive { triangles, ..ball(false) };
-        let closure = Closure::new(&Mesh { name: String::new(), primitives: vec![simplified] });
+        let closure = Closure::new(&Mesh { name: String::new(), primitives: vec![simplified] }, 1.0);
         assert!(closure.is_closed(), "{closure:?}");
     }
 

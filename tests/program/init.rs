@@ -77,3 +77,16 @@ fn a_path_that_no_spec_can_name_is_told() {
     }
     assert_eq!(folder.names().len(), 1);
 }
+
+#[test]
+fn a_model_in_place_of_a_spec_is_told_what_to_do() {
+    let folder = Folder::new("init-instead");
+    let (json, binary) = (triangle(&folder, "t.gltf", 1.0), project("lens-specs/models/cubes.glb"));
+    for model in [&json, &binary] {
+        for command in ["check", "explain"] {
+            let report = call(&[command, model]).refused();
+            assert!(report.contains("a lens spec is expected"), "{report}");
+            assert!(report.contains(&format!("`lenspeel init {model} -o SPEC.toml`")), "{report}");
+        }
+    }
+}

@@ -65,9 +65,14 @@ impl std::fmt::Display for Ended {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Ended::Work { lines, of } => {
-                write!(f, "the search for regions ended after {lines} of {of} lines through the lenses: there may be more")
+                write!(
+                    f,
+                    "the search for regions ended after {lines} of {of} lines through the lenses: there may be more"
+                )
             }
-            Ended::Regions(found) => write!(f, "the search for regions ended when it had found {found}: there are more"),
+            Ended::Regions(found) => {
+                write!(f, "the search for regions ended when it had found {found}: there are more")
+            }
         }
     }
 }
@@ -290,7 +295,9 @@ mod tests {
     fn spheres(count: usize, filter: &str) -> String {
         let lens = |i: usize| {
             let (x, r) = (0.02 * i as f64, 0.9 - 0.02 * i as f64);
-            format!("[[lens]]\nname = \"l{i}\"\nshape.sphere = {{ center = [{x}, 0, 0], radius = {r} }}\nfilters = [{filter}]\n")
+            format!(
+                "[[lens]]\nname = \"l{i}\"\nshape.sphere = {{ center = [{x}, 0, 0], radius = {r} }}\nfilters = [{filter}]\n"
+            )
         };
         (0..count).map(lens).collect()
     }

@@ -64,7 +64,7 @@ pub const FILTERS: &[FilterRow] = &[
     filter("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
     filter("toon", Surface, "light in a few flat steps", TOON),
     filter("hatch", Surface, "light as pen strokes", HATCH),
-    filter("edges", Screen, "silhouettes, creases and region borders", EDGES),
+    filter("edges", Screen, "silhouettes, creases, and borders of regions and of caps", EDGES),
     filter("blur", Screen, "blurs, to push context back", BLUR),
     filter("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
     pictured("../wgsl/stripes.png", filter("wgsl", Custom, "a filter of your own, in WGSL", WGSL)),

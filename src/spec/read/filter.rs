@@ -33,7 +33,7 @@ enum Value {
 
 /// The filters of a lens or a rule, first to act first.
 pub fn list(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
-    item.list("a list of filters, such as [\"wireframe\"]")?.iter().map(one).collect()
+    item.each("a list of filters, such as [\"wireframe\"]", one)
 }
 
 /// The filters of an overlap rule, which may not move content (SEMANTICS 4).

@@ -4,26 +4,26 @@ use std::collections::HashMap;
 
 use super::suggest;
 use crate::InputError;
+use crate::error::Faults;
 use crate::limits::{MAX_LENSES, MAX_PARTS, MAX_PLANES, MAX_RULES, MAX_WRITTEN_LENSES};
 use crate::spec::{At, Condition, Filter, LensSpec, Names, Pattern, Shape, ShowWhat, Source, Spec};
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
     let names = Names::new(spec.lenses.iter().map(|lens| lens.name.value.as_str()));
     let links = Links { source: &spec.source, spec, names };
+    // Of too many nothing else is looked at.
     links.count_written()?;
-    links.count()?;
-    links.count_rules()?;
-    links.count_parts()?;
-    links.count_planes()?;
-    links.unique_names()?;
-    for lens in &spec.lenses {
-        links.lens(lens)?;
+    let mut faults = Faults::default();
+    for counted in [links.count(), links.count_rules(), links.count_parts(), links.count_planes()] {
+        faults.take(counted);
     }
+    links.unique_names(&mut faults);
+    spec.lenses.iter().for_each(|lens| links.lens(lens, &mut faults));
     for rule in &spec.overlaps {
-        links.condition(&rule.when.value)?;
-        links.filters(&rule.filters)?;
+        links.condition(&rule.when.value, &mut faults);
+        links.filters(&rule.filters, &mut faults);
     }
-    Ok(())
+    faults.finish()
 }
 
 struct Links<'a> {
@@ -37,7 +37,8 @@ impl Links<'_> {
     fn count_written(&self) -> Result<(), InputError> {
         let Some(first_too_many) = self.spec.lenses.get(MAX_WRITTEN_LENSES) else { return Ok(()) };
         let count = self.spec.lenses.len();
-        let message = format!("the file has {count} lenses, and at most {MAX_WRITTEN_LENSES} can be, disabled ones included");
+        let message =
+            format!("the file has {count} lenses, and at most {MAX_WRITTEN_LENSES} can be, disabled ones included");
         Err(self.error(&first_too_many.name, message).help("leave out what is never enabled"))
     }
 
@@ -83,26 +84,25 @@ impl Links<'_> {
         Err(self.error(part, message).help("a `hull` or a `mesh` may have any number of faces"))
     }
 
-    fn unique_names(&self) -> Result<(), InputError> {
+    fn unique_names(&self, faults: &mut Faults) {
         let mut seen: HashMap<&str, &At<String>> = HashMap::new();
         for lens in &self.spec.lenses {
-            if let Some(first) = seen.insert(&lens.name.value, &lens.name) {
-                return Err(self
-                    .error(&lens.name, format!("there are two lenses named `{}`", lens.name.value))
-                    .label(first.span.clone(), "the first is here")
-                    .help("rename one of them"));
+            if let Some(first) = seen.get(lens.name.value.as_str()) {
+                let message = format!("there are two lenses named `{}`", lens.name.value);
+                let error = self.error(&lens.name, message).label(first.span.clone(), "the first is here");
+                faults.note(error.help("rename one of them"));
             }
+            seen.entry(&lens.name.value).or_insert(&lens.name);
         }
-        Ok(())
     }
 
-    fn lens(&self, lens: &LensSpec) -> Result<(), InputError> {
+    fn lens(&self, lens: &LensSpec, faults: &mut Faults) {
         for (key, patterns) in [("over", &lens.over), ("under", &lens.under), ("hides", &lens.hides)] {
             for pattern in patterns {
-                self.other_lens(lens, key, pattern)?;
+                faults.take(self.other_lens(lens, key, pattern));
             }
         }
-        self.filters(&lens.filters)
+        self.filters(&lens.filters, faults);
     }
 
     /// An edge must lead to a lens other than its own (SEMANTICS 3.1).
@@ -121,27 +121,27 @@ impl Links<'_> {
         Err(self.error(pattern, message).help("name another lens, or leave it out"))
     }
 
-    fn condition(&self, condition: &Condition) -> Result<(), InputError> {
+    fn condition(&self, condition: &Condition, faults: &mut Faults) {
         match condition {
-            Condition::Lens(pattern) => match self.names.any(&pattern.value) {
-                true => Ok(()),
-                false => Err(self.no_match("`when` names", pattern, self.names.iter())),
-            },
-            Condition::Not(inner) => self.condition(inner),
+            Condition::Lens(pattern) => {
+                if !self.names.any(&pattern.value) {
+                    faults.note(self.no_match("`when` names", pattern, self.names.iter()));
+                }
+            }
+            Condition::Not(inner) => self.condition(inner, faults),
             Condition::And(left, right) | Condition::Or(left, right) => {
-                self.condition(left)?;
-                self.condition(right)
+                self.condition(left, faults);
+                self.condition(right, faults);
             }
         }
     }
 
-    fn filters(&self, filters: &[At<Filter>]) -> Result<(), InputError> {
+    fn filters(&self, filters: &[At<Filter>], faults: &mut Faults) {
         for filter in filters {
             if let Filter::Show(ShowWhat::Alternate { name, .. }) = &filter.value {
-                self.alternate(name)?;
+                faults.take(self.alternate(name));
             }
         }
-        Ok(())
     }
 
     fn alternate(&self, wanted: &At<String>) -> Result<(), InputError> {

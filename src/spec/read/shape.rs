@@ -65,7 +65,7 @@ fn ellipsoid(table: &Table) -> Result<Shape, InputError> {
 }
 
 fn rotation(table: &Table) -> Result<Rotation, InputError> {
-    Ok(table.read("rotation", Item::rotation)?.unwrap_or_default())
+    Ok(table.read("rotation", Item::rotation).unwrap_or_default())
 }
 
 fn cuboid(table: &Table) -> Result<Shape, InputError> {
@@ -192,7 +192,7 @@ fn normal(table: &Table) -> Result<[f64; 3], InputError> {
 fn flat(table: &Table) -> Result<Shape, InputError> {
     Ok(Shape::Flat {
         corners: table.need("corners")?.points(3)?,
-        depth: table.read("depth", |item| item.number(NumberRange::POSITIVE))?,
+        depth: table.read("depth", |item| item.number(NumberRange::POSITIVE)),
     })
 }
 
@@ -200,8 +200,8 @@ fn mesh(table: &Table) -> Result<Shape, InputError> {
     let convex = |item: &Item| item.choice(&[("hull", Convex::Hull), ("decompose", Convex::Decompose)]);
     Ok(Shape::Mesh(MeshShape {
         file: table.need("file")?.path()?,
-        node: table.read("node", |item| Ok(item.at(item.text()?.to_owned())))?,
-        convex: table.read("convex", convex)?.unwrap_or(Convex::AsItStands),
+        node: table.read("node", |item| Ok(item.at(item.text()?.to_owned()))),
+        convex: table.read("convex", convex).unwrap_or(Convex::AsItStands),
     }))
 }
 
