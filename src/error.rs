@@ -115,29 +115,6 @@ impl Faults {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn faults_are_one_error_in_the_order_of_the_file() {
-        let source = Source { name: "spec.toml".into(), text: "abcdefgh".into() };
-        let at = |place: usize| InputError::at(&source, place..place + 1, format!("fault {place}"));
-        let mut inner = Faults::default();
-        [7, 3].into_iter().for_each(|place| inner.note(at(place)));
-        let mut faults = Faults::default();
-        assert_eq!(faults.take(Ok(1)), Some(1));
-        assert_eq!(faults.take(Err::<(), _>(at(5))), None);
-        faults.note(at(5));
-        assert_eq!(faults.take(inner.finish()), None);
-        let error = faults.finish().expect_err("three faults");
-        let messages: Vec<&str> = error.others.iter().map(|error| error.message.as_str()).collect();
-        assert_eq!((error.message.as_str(), messages), ("fault 3", vec!["fault 5", "fault 7"]));
-        assert_eq!(error.to_string(), "spec.toml:1: fault 3 (and 2 more)");
-        assert!(Faults::default().finish().is_ok());
-    }
-}
-
 /// A text as messages show it: words that are much longer than any name are cut.
 pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     if text.split_whitespace().all(|word| word.len() <= MAX_SHOWN) {
@@ -145,7 +122,7 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     }
     let mut short = String::new();
     for piece in text.split_inclusive(char::is_whitespace) {
-        let count = piece.chars().count();
+        let count = piece.trim_end().chars().count();
         if count <= MAX_SHOWN {
             short.push_str(piece);
             continue;
@@ -161,6 +138,24 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn faults_are_one_error_in_the_order_of_the_file() {
+        let source = Source::new("spec.toml", "abcdefgh");
+        let at = |place: usize| InputError::at(&source, place..place + 1, format!("fault {place}"));
+        let mut inner = Faults::default();
+        [7, 3].into_iter().for_each(|place| inner.note(at(place)));
+        let mut faults = Faults::default();
+        assert_eq!(faults.take(Ok(1)), Some(1));
+        assert_eq!(faults.take(Err::<(), _>(at(5))), None);
+        faults.note(at(5));
+        assert_eq!(faults.take(inner.finish()), None);
+        let error = faults.finish().expect_err("three faults");
+        let messages: Vec<&str> = error.others.iter().map(|error| error.message.as_str()).collect();
+        assert_eq!((error.message.as_str(), messages), ("fault 3", vec!["fault 5", "fault 7"]));
+        assert_eq!(error.to_string(), "spec.toml:1: fault 3 (and 2 more)");
+        assert!(Faults::default().finish().is_ok());
+    }
 
     #[test]
     fn only_words_longer_than_any_name_are_cut() {

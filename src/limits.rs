@@ -31,5 +31,9 @@ pub const REGION_WORK: u64 = 1_500_000_000;
 /// Regions that are not in view of which `explain` tells.
 pub const MAX_TOLD: usize = 1000;
 
+/// Loop iterations that a user's own filters (`wgsl`) may take for one picture on the CPU, as
+/// [`LOOP_BUDGET`](crate::custom::LOOP_BUDGET) counts them for one call.
+pub const FILTER_ITERATIONS: u64 = 1 << 31;
+
 /// Characters of one word, such as a name, in a message; longer ones are cut.
 pub const MAX_SHOWN: usize = 512;

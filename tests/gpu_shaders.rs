@@ -33,6 +33,7 @@ const LITTLE: Needs = Needs {
     filters: 0,
     quantities: false,
     hidden_lines: false,
+    large: false,
     channels: 0,
     screen: false,
 };
@@ -60,6 +61,7 @@ const MOST: Needs = Needs {
     filters: u64::MAX,
     quantities: true,
     hidden_lines: true,
+    large: true,
     channels: 3,
     screen: true,
 };

@@ -14,13 +14,16 @@ use crate::InputError;
 use crate::appearance as wgsl;
 use crate::frame::{Aovs, Frame, NoMemory, RegionTable, check_memory, filled};
 use crate::lens::{LayerStart, PixelRect, RayLayers};
+use crate::limits::FILTER_ITERATIONS;
 use crate::pick::Pick;
 use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
 use crate::scene::{Scene, TO_TAKE_LESS};
 
-/// Rows of a picture whose samples are kept at once, for filters of the screen.
+/// The fewest rows of a picture whose samples are kept at once, for filters of the screen, and how many samples, about: what
+/// lies around a band is traced for it anew.
 const BAND: u32 = 128;
+const BAND_SAMPLES: u32 = 1 << 22;
 
 /// Pixels, about, of which all that was found is kept at once, before it is brought into the picture and its maps.
 const BAND_PIXELS: u32 = 1 << 20;
@@ -38,6 +41,11 @@ pub enum Error {
     TooLarge(String),
     #[error(transparent)]
     NoMemory(#[from] NoMemory),
+    #[error(
+        "the loops of `wgsl` filters took more than {FILTER_ITERATIONS} iterations for one picture \
+         (an iteration that computes more than 64 numbers counts as several)"
+    )]
+    FilterWork,
 }
 
 impl From<Error> for InputError {
@@ -46,6 +54,7 @@ impl From<Error> for InputError {
             Error::OtherScene => "make a plan of this scene with `Plan::new`",
             Error::TooLarge(_) => TO_TAKE_LESS,
             Error::NoMemory(_) => "make it smaller, or leave maps out",
+            Error::FilterWork => "let the loops end sooner, or make the picture smaller or with fewer samples",
         };
         InputError::new(error.to_string()).help(help)
     }
@@ -107,6 +116,7 @@ impl<'a> Renderer<'a> {
     fn render_bare(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Result<Frame, Error> {
         let size = self.plan.view.size;
         check_memory(size, aovs)?;
+        self.tracer.start_picture();
         if !self.plan.screen.is_empty() {
             let maps = if aovs { Some(self.maps(&|_| ())?) } else { None };
             return Ok(Frame { size, pixels: self.screen_filtered(done)?, aovs: maps });
@@ -122,6 +132,7 @@ impl<'a> Renderer<'a> {
     /// There is no memory for the maps.
     pub fn maps(&self, done: &(dyn Fn(u64) + Sync)) -> Result<Aovs, Error> {
         check_memory(self.plan.view.size, true)?;
+        self.tracer.start_picture();
         Ok(self.draw(None, true, done)?.unwrap_or_default())
     }
 
@@ -140,7 +151,7 @@ impl<'a> Renderer<'a> {
         let rows = (BAND_PIXELS / width).next_multiple_of(BAND);
         for first in (0..height).step_by(rows as usize) {
             let band = PixelRect { min: [0, first], max: [width, (first + rows).min(height)] };
-            for tile in self.tiles(band, wanted, done) {
+            for tile in self.tiles(band, wanted, done)? {
                 for (number, (x, y)) in pixels_of(&tile.rect).enumerate() {
                     let at = y as usize * width as usize + x as usize;
                     if let Some(pixels) = &mut pixels {
@@ -158,7 +169,7 @@ impl<'a> Renderer<'a> {
         Ok(aovs)
     }
 
-    /// The depth at which the ray of each pixel's centre surely ends, infinite where nothing opaque is: primary visibility
+    /// The depth, from the anchor, at which the ray of each pixel's centre surely ends, infinite where nothing opaque is: primary visibility
     /// and nothing else.
     pub fn depths(&self) -> Vec<f32> {
         let [width, height] = self.plan.view.size;
@@ -185,13 +196,14 @@ impl<'a> Renderer<'a> {
         let [width, height] = self.plan.view.size;
         let reach = self.plan.screen_reach();
         let mut pixels = filled(width as usize * height as usize, [0; 4])?;
-        for first in (0..height).step_by(BAND as usize) {
-            let last = (first + BAND).min(height);
+        let rows = (BAND_SAMPLES / width / self.plan.samples).saturating_sub(2 * reach).max(BAND);
+        for first in (0..height).step_by(rows as usize) {
+            let last = (first + rows).min(height);
             let around = PixelRect {
                 min: [0, first.saturating_sub(reach)],
                 max: [width, last.saturating_add(reach).min(height)],
             };
-            let planes = self.planes(around);
+            let planes = self.planes(around)?;
             let inner = PixelRect { min: [0, first], max: [width, last] };
             let sums = screen::filtered(self.plan, planes, &inner);
             let samples = self.plan.samples as f32;
@@ -203,37 +215,44 @@ impl<'a> Renderer<'a> {
     }
 
     /// What each sample of a rectangle's pixels sees, a plane for each sample of a pixel.
-    fn planes(&self, rect: PixelRect) -> Vec<Plane> {
+    fn planes(&self, rect: PixelRect) -> Result<Vec<Plane>, Error> {
         let side = self.samples_along();
         let mut planes: Vec<Plane> = (0..side * side).map(|sample| Plane::new(rect, sample, side)).collect();
-        let traced: Vec<(PixelRect, Vec<SampleSeen>)> = tiles_of(&rect, (BLOCK / side).max(1))
+        let traced: Result<Vec<(PixelRect, Vec<SampleSeen>)>, Error> = tiles_of(&rect, (BLOCK / side).max(1))
             .into_par_iter()
             .map_init(Scratch::default, |scratch, tile| {
+                self.check_filter_work()?;
                 let (block, ranks) = (Block { rect: tile, side }, self.ranks(&tile));
                 self.tracer.trace(&block, &ranks, scratch);
                 let samples = pixels_of(&tile).flat_map(|at| block.samples_of(at.into()));
-                (tile, samples.map(|sample| self.tracer.seen(sample, &ranks, scratch)).collect())
+                Ok((tile, samples.map(|sample| self.tracer.seen(sample, &ranks, scratch)).collect()))
             })
             .collect();
-        for (tile, samples) in traced {
+        for (tile, samples) in traced? {
             for ((x, y), seen) in pixels_of(&tile).zip(samples.chunks_exact(planes.len())) {
                 for (plane, (color, visible)) in planes.iter_mut().zip(seen) {
                     plane.put(self.plan, [x, y], *color, visible);
                 }
             }
         }
-        planes
+        Ok(planes)
+    }
+
+    /// Whether the user's own filters may go on.
+    fn check_filter_work(&self) -> Result<(), Error> {
+        if self.tracer.filter_iterations() > FILTER_ITERATIONS { Err(Error::FilterWork) } else { Ok(()) }
     }
 
     /// All tiles of a band.
-    fn tiles(&self, band: PixelRect, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Vec<TileResult> {
+    fn tiles(&self, band: PixelRect, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Result<Vec<TileResult>, Error> {
         let side = if wanted.colors { self.samples_along() } else { 1 };
         tiles_of(&band, (BLOCK / side).max(1))
             .into_par_iter()
             .map_init(Scratch::default, |scratch, rect| {
+                self.check_filter_work()?;
                 let result = self.tile(rect, wanted, scratch);
                 done(rect.area());
-                result
+                Ok(result)
             })
             .collect()
     }
@@ -339,7 +358,7 @@ impl<'a> Renderer<'a> {
         maps.triangles[at] = visible.fragment.triangle;
         let item = self.plan.instances[visible.fragment.instance as usize].item;
         maps.nodes[at] = self.plan.items[item].node as u32 + 1;
-        maps.depth[at] = visible.fragment.depth;
+        maps.depth[at] = self.plan.view.from_eye(f64::from(visible.fragment.depth));
         maps.normals[at] = visible.normal.to_array();
     }
 }

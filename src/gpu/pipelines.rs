@@ -79,12 +79,12 @@ pub struct Pipelines {
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
 }
 
-/// What runs the filters of the screen, each in two passes, and draws the picture after them.
+/// What runs the filters of the screen, each in a few passes, and draws the picture after them.
 #[derive(Debug, Clone)]
 pub struct ScreenPipelines {
     /// Of filters that take means.
-    pub means: [wgpu::ComputePipeline; 2],
-    pub edges: [wgpu::ComputePipeline; 2],
+    pub means: Vec<wgpu::ComputePipeline>,
+    pub edges: Vec<wgpu::ComputePipeline>,
     pub finish: wgpu::RenderPipeline,
 }
 
@@ -145,8 +145,8 @@ impl Pipelines {
             });
             let compute = |entry| compute_pipeline(&store.device, &module, &layout, entry);
             ScreenPipelines {
-                means: ["sum_rows", "sum_columns"].map(compute),
-                edges: ["mark_edges", "draw_edges"].map(compute),
+                means: ["sum_rows", "sum_columns"].map(compute).into(),
+                edges: ["mark_edges", "find_in_rows", "draw_edges"].map(compute).into(),
                 finish: picture_pipeline(&store.device, &module, &layout, ("window_vertex", "finish"), store.target),
             }
         };

@@ -11,8 +11,8 @@ use crate::plan::Plan;
 pub struct ScreenJob {
     pipelines: ScreenPipelines,
     group: wgpu::BindGroup,
-    /// For each step, the pipelines of its two passes and where its record stands.
-    steps: Vec<([wgpu::ComputePipeline; 2], u32)>,
+    /// For each step, the pipelines of its passes and where its record stands.
+    steps: Vec<(Vec<wgpu::ComputePipeline>, u32)>,
 }
 
 /// What a step's shaders are told: the filter, the rank of its lens, and nothing twice.

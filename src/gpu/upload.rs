@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use glam::Vec3;
+
 use super::atlas::Atlas;
 use super::clusters::{Cluster, Clustered};
 use super::provoking::Provoking;
@@ -11,12 +13,14 @@ use crate::plan::Item;
 use crate::scene::{Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Range {
     pub first_index: u32,
     /// Where the numbers start that its triangles have in the primitive.
     pub first_number: u32,
     pub base_vertex: u32,
+    /// Its positions are relative to this: a mesh far from its own origin keeps its digits.
+    pub middle: Vec3,
     /// Floats, or [`NONE`].
     pub normals: u32,
     pub tangents: u32,
@@ -24,6 +28,14 @@ pub struct Range {
     pub uv: [u32; 2],
     /// Of other numbers at vertices, by name.
     pub values: BTreeMap<String, u32>,
+}
+
+/// Of the bounds of points; none where they have no middle that is a number.
+fn middle(points: &[Vec3]) -> Vec3 {
+    let ends = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(ends, |(low, high), p| (low.min(*p), high.max(*p)));
+    let middle = 0.5 * low + 0.5 * high;
+    if middle.is_finite() { middle } else { Vec3::ZERO }
 }
 
 /// Model, mesh, primitive, and the bits of the ratio of its version.
@@ -62,7 +74,10 @@ impl Lists {
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
+        let middle = middle(&primitive.positions);
+        let around: Vec<Vec3> = primitive.positions.iter().map(|p| *p - middle).collect();
         let range = Range {
+            middle,
             first_index: self.indices.len() as u32,
             first_number: self.numbers.len() as u32,
             base_vertex: (self.positions.len() / 3) as u32,
@@ -72,7 +87,7 @@ impl Lists {
             uv: [0, 1].map(|set| self.attribute(&order, primitive.uv[set].as_deref())),
             values: self.values(&order, primitive, wanted),
         };
-        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
+        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&around)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
         self.numbers.extend(numbers);
         (range, clusters)

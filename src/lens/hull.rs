@@ -101,7 +101,7 @@ pub fn hull_form(points: &[DVec3]) -> Result<(Form, DAffine3), FlatPoints> {
     let vertices = hull.vertices.iter().map(|p| (*p - bounds.center()) / half).collect();
     let pose = DAffine3::from_scale_rotation_translation(half, DQuat::IDENTITY, bounds.center());
     let roles = vec![Role::PLAIN; hull.triangles.len()];
-    let solid = MeshSolid { is_convex: true, ..MeshSolid::new(vertices, &hull.triangles, &roles) };
+    let solid = MeshSolid { is_convex: true, ..MeshSolid::with_roles(vertices, &hull.triangles, &roles) };
     Ok((Form::Mesh(Arc::new(solid)), pose))
 }
 

@@ -70,7 +70,7 @@ pub fn encode_aov(aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<EncodedAov, Inpu
             table = Some(serde_json::to_string_pretty(&map.json()).unwrap_or_default() + "\n");
             gray16(&map.ids, size)
         }
-        Aov::Depth => exr(size, &[("Z", aovs.depth.clone())]),
+        Aov::Depth => exr(size, &[("Z", aovs.depth.iter().map(|depth| *depth as f32).collect())]),
         Aov::Normal => {
             let axis = |i: usize| aovs.normals.iter().map(|n| n[i]).collect();
             exr(size, &[("R", axis(0)), ("G", axis(1)), ("B", axis(2))])

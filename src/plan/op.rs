@@ -186,7 +186,9 @@ impl<'a> Ops<'a> {
             Filter::Contours { quantity, spacing, width, color } => {
                 let spacing = spacing.map_or_else(|| self.round_spacing(quantity), Ok)?;
                 self.explain(quantity, LegendLook::Lines { spacing, color: *color });
-                let lines = Op::new(wgsl::OP_CONTOURS, NONE, [0.0, 0.0, spacing as f32, *width]);
+                let from = self.counted_from(quantity);
+                let beyond = from - (from / spacing).round() * spacing;
+                let lines = Op::new(wgsl::OP_CONTOURS, NONE, [beyond as f32, 0.0, spacing as f32, *width]);
                 self.reading(lines, quantity).with_color(*color)
             }
             Filter::Toon { levels } => Op::new(wgsl::OP_TOON, NONE, one(*levels as f32)),
@@ -255,7 +257,10 @@ impl<'a> Ops<'a> {
         let scale = if high == low { 0.0 } else { 1.0 / (high - low) };
         self.explain(quantity, LegendLook::Colors { colormap: colormap.to_owned(), range: [low, high] });
         let texture = *prepared(self.scene.color_maps.get(colormap), || format!("the colour map `{colormap}`"))?;
-        let op = self.reading(Op::new(kind, NONE, [low as f32, scale as f32, 0.0, 0.0]), quantity);
+        let op = self.reading(
+            Op::new(kind, NONE, [(low - self.counted_from(quantity)) as f32, scale as f32, 0.0, 0.0]),
+            quantity,
+        );
         Ok(Op { texture, ..op.flagged(wgsl::MAPPED.0, true) })
     }
 
@@ -268,6 +273,16 @@ impl<'a> Ops<'a> {
     /// For the legend: of the filter whose record comes next.
     fn explain(&mut self, quantity: &Quantity, look: LegendLook) {
         self.legend.push(LegendEntry { op: self.list.len(), quantity: quantity.clone(), look });
+    }
+
+    /// What shaders count a quantity from: positions are relative to the view's origin there, so that they have their
+    /// digits far from the scene's.
+    fn counted_from(&self, quantity: &Quantity) -> f64 {
+        match quantity {
+            Quantity::Height => self.view.origin().y,
+            Quantity::Depth => self.view.from_eye(0.0),
+            Quantity::Slope | Quantity::Curvature | Quantity::Attribute(_) => 0.0,
+        }
     }
 
     /// The same, told what it reads.
@@ -318,12 +333,12 @@ fn named(what: &str, path: &Path) -> String {
     format!("{what} {}", path.display())
 }
 
-/// The depths of bounds between near and far.
+/// The depths from the eye of bounds between near and far.
 fn depths(view: &View, bounds: &Aabb) -> [f64; 2] {
     if bounds.is_empty() {
-        return [view.near, view.far];
+        return [view.near, view.far].map(|depth| view.from_eye(depth));
     }
-    let corners = bounds.corners().map(|p| view.depth(p).clamp(view.near, view.far));
+    let corners = bounds.corners().map(|p| view.from_eye(view.depth(p).clamp(view.near, view.far)));
     [corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max)]
 }
 

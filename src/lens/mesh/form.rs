@@ -35,7 +35,7 @@ impl MeshForm {
         is_closed(&surface, &pieces)?;
         let (form, inner) = match convex {
             Convex::Decompose => {
-                let solid = MeshSolid::new(surface.vertices.clone(), &surface.triangles, &pieces.roles);
+                let solid = MeshSolid::with_roles(surface.vertices.clone(), &surface.triangles, &pieces.roles);
                 (Form::Mesh(Arc::new(solid)), DAffine3::IDENTITY)
             }
             Convex::Hull => hull_of(&surface)?,
@@ -53,7 +53,7 @@ const MANY: usize = 4096;
 
 fn convex_of(surface: &Surface, pieces: &Pieces) -> Result<(Form, DAffine3), InputError> {
     if surface.triangles.len() >= MANY && pieces.closed == 1 {
-        let solid = MeshSolid::new(surface.vertices.clone(), &surface.triangles, &pieces.roles);
+        let solid = MeshSolid::with_roles(surface.vertices.clone(), &surface.triangles, &pieces.roles);
         if is_convex_by_planes(&solid) {
             return Ok((Form::Mesh(Arc::new(MeshSolid { is_convex: true, ..solid })), DAffine3::IDENTITY));
         }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::line::LineCrossing;
 use super::tree::TriangleTree;
 use crate::lens::{Crossing, Plane, Span};
-use crate::pieces::{Around, Role};
+use crate::pieces::{Around, Pieces, Role};
 
 /// A closed triangle mesh in the cube from -1 to 1. What its pieces enclose is inside: where they overlap they unite, and
 /// one inside another that faces the other way is a hole.
@@ -24,8 +24,14 @@ const SLIVER: f64 = 4e-14;
 const ANYWHERE: DVec3 = DVec3::new(0.527_348, 0.331_907, 0.782_154);
 
 impl MeshSolid {
-    /// From a closed surface, with the role of each triangle.
-    pub fn new(vertices: Vec<DVec3>, triangles: &[[u32; 3]], roles: &[Role]) -> Self {
+    /// From a closed surface whose corners at one place are one vertex.
+    pub fn new(vertices: Vec<DVec3>, triangles: &[[u32; 3]]) -> Self {
+        let roles = Pieces::new(&vertices, triangles).roles;
+        Self::with_roles(vertices, triangles, &roles)
+    }
+
+    /// The same where the role of each triangle is known.
+    pub(in crate::lens) fn with_roles(vertices: Vec<DVec3>, triangles: &[[u32; 3]], roles: &[Role]) -> Self {
         let counted = |(_, role): &(&[u32; 3], &Role)| role.is_closed();
         let (triangles, roles): (Vec<[u32; 3]>, Vec<Role>) =
             triangles.iter().zip(roles).filter(counted).map(|(corners, role)| (*corners, *role)).unzip();

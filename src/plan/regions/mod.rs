@@ -280,6 +280,7 @@ mod tests {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         };
         let model = Model {
             nodes: vec![node],
