@@ -65,11 +65,10 @@ impl InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(source) = &self.source_text {
-            write!(f, "{}", source.name)?;
-            if let Some(line) = self.line() {
-                write!(f, ":{line}")?;
+            match self.labels.first() {
+                Some((span, _)) => write!(f, "{}: ", source.place(span.start))?,
+                None => write!(f, "{}: ", source.name)?,
             }
-            write!(f, ": ")?;
         }
         write!(f, "{}", shortened(&self.message))?;
         if let Some(help) = &self.help {

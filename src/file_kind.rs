@@ -18,11 +18,13 @@ const UNPACK: &str = "unpack it and name the .glb or .gltf in it";
 const TILES: &str = "take the .glb out of it, with `3d-tiles-tools`";
 const UNKNOWN: &str = "expected glTF 2.0, as .gltf (JSON) or .glb";
 
+const GLB: &str = "a binary glTF file";
+
 /// Bytes at a place, and what begins so.
 type Magic = (usize, &'static [u8], &'static str, &'static str);
 
 const MAGICS: &[Magic] = &[
-    (0, b"glTF", "a binary glTF file", "`lenspeel init` writes a lens spec for it"),
+    (0, b"glTF", GLB, "`lenspeel init` writes a lens spec for it"),
     (0, b"Kaydara FBX Binary", "an FBX file", BLENDER),
     (0, b"; FBX ", "an FBX file", BLENDER),
     (0, b"BLENDER", "a Blender file", BLENDER),
@@ -93,6 +95,11 @@ impl FileKind {
     pub const GLTF: Self = Self { name: "a glTF file", advice: "`lenspeel init` writes a lens spec for it" };
     /// JSON of no kind that is known here.
     pub const JSON: Self = Self { name: "JSON that is not glTF", advice: UNKNOWN };
+
+    /// Whether it is what specs name as their scene.
+    pub fn is_model(&self) -> bool {
+        *self == Self::GLTF || self.name == GLB
+    }
 
     /// By its first bytes and how many there are in all.
     pub fn of(bytes: &[u8]) -> Self {

@@ -14,6 +14,7 @@ mod file_kind;
 pub mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod legend;
 pub mod lens;
 pub mod limits;
 pub mod output;
@@ -25,6 +26,7 @@ mod printable;
 pub mod scene;
 pub mod spec;
 pub mod view;
+mod words;
 
 pub use error::InputError;
 

@@ -43,6 +43,7 @@ fn example(param: &Param) -> String {
         ParamKind::Text => "\"bones\"".to_owned(),
         ParamKind::File => "\"map.png\"".to_owned(),
         ParamKind::Choice(words) => format!("\"{}\"", words[0]),
+        ParamKind::ColorMap => "\"magma-r\"".to_owned(),
         ParamKind::Patterns => "[\"Bolt*\"]".to_owned(),
         ParamKind::Cap => "\"hatch\"".to_owned(),
         ParamKind::FreeTable => "{ anything = 1 }".to_owned(),

@@ -29,7 +29,7 @@ fn scene_and_image() {
     assert_eq!(alternates, ["zebra", "bones"], "file order");
     assert_eq!(
         spec.image,
-        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None }
+        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None, legend: true }
     );
 }
 
@@ -144,7 +144,7 @@ fn deep_nesting_is_an_error_rather_than_an_overflow() {
 /// An error's text can always be printed, with its lines.
 fn read_and_report(text: &str) {
     if let Err(error) = parse(text) {
-        assert!(!lenspeel::cli::report(&error, 80, false).is_empty());
+        assert!(!lenspeel::cli::report(&error, false).is_empty());
         assert!(!error.message.is_empty());
     }
 }

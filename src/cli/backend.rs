@@ -5,6 +5,7 @@ use std::cell::Cell;
 
 use super::args::{BackendChoice, EngineChoice};
 use super::stages::Stages;
+use super::streams::Messages;
 use crate::InputError;
 use crate::cpu;
 use crate::frame::{Aovs, Frame, InFront};
@@ -24,17 +25,18 @@ pub enum Backend {
         or_cpu: bool,
         /// It could not.
         gave_up: Cell<bool>,
+        messages: Messages,
     },
 }
 
 /// Chooses as the user asked; the text says what and why.
 #[cfg(feature = "gpu")]
-pub fn choose(choice: BackendChoice) -> Result<(Backend, String), InputError> {
+pub fn choose(choice: BackendChoice, messages: Messages) -> Result<(Backend, String), InputError> {
     use crate::gpu::{Headless, choose_hardware, choose_named};
     let fail = |e: crate::gpu::Error| InputError::new(e.to_string()).help("`--backend cpu` needs no graphics device");
     let gpu = |adapter: crate::gpu::AdapterChoice, or_cpu: bool| {
         let device = Box::new(Headless::new(&adapter)?);
-        Ok((Backend::Gpu { device, or_cpu, gave_up: Cell::new(false) }, format!("gpu: {}", adapter.reason)))
+        Ok((Backend::Gpu { device, or_cpu, gave_up: Cell::new(false), messages }, format!("gpu: {}", adapter.reason)))
     };
     match choice {
         BackendChoice::Cpu => Ok((Backend::Cpu, "cpu: it was asked for".into())),
@@ -47,7 +49,7 @@ pub fn choose(choice: BackendChoice) -> Result<(Backend, String), InputError> {
 
 /// Chooses as the user asked; the text says what and why.
 #[cfg(not(feature = "gpu"))]
-pub fn choose(choice: BackendChoice) -> Result<(Backend, String), InputError> {
+pub fn choose(choice: BackendChoice, _: Messages) -> Result<(Backend, String), InputError> {
     match choice {
         BackendChoice::Cpu => Ok((Backend::Cpu, "cpu: it was asked for".into())),
         BackendChoice::Auto => Ok((Backend::Cpu, "cpu: this program was built without the `gpu` feature".into())),
@@ -79,7 +81,7 @@ impl Backend {
             return on_cpu(scene, plan, aovs, stages);
         }
         if engine.is_some() {
-            eprintln!("note: --engine is about the GPU, and the CPU renders");
+            stages.messages.note("note: --engine is about the GPU, and the CPU renders");
         }
         on_cpu(scene, plan, aovs, stages)
     }
@@ -98,8 +100,8 @@ impl Backend {
     /// Leaves the picture, and all that follows, to the CPU, if that may take over; one line says so.
     fn give_up(&self, error: crate::gpu::Error) -> Result<(), InputError> {
         match self {
-            Backend::Gpu { or_cpu: true, gave_up, .. } => {
-                eprintln!("cpu: the GPU cannot make this picture: {error}");
+            Backend::Gpu { or_cpu: true, gave_up, messages, .. } => {
+                messages.note(format_args!("cpu: the GPU cannot make this picture: {error}"));
                 gave_up.set(true);
                 Ok(())
             }
@@ -133,7 +135,7 @@ impl Backend {
             }
         }
         let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan))?;
-        let bar = super::stages::progress(plan.view.size.iter().map(|s| u64::from(*s)).product());
+        let bar = stages.progress(plan.view.size.iter().map(|s| u64::from(*s)).product());
         let maps = stages.time("render", || renderer.maps(&|done| bar.inc(done)));
         bar.finish_and_clear();
         Ok(maps?)
@@ -189,7 +191,7 @@ fn no_picture(error: crate::gpu::Error) -> InputError {
 fn on_cpu(scene: &Scene, plan: &Plan, aovs: bool, stages: &mut Stages) -> Result<Frame, InputError> {
     let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan))?;
     let pixels = plan.view.size.iter().map(|s| u64::from(*s)).product();
-    let bar = super::stages::progress(pixels);
+    let bar = stages.progress(pixels);
     let frame = stages.time("render", || renderer.render(aovs, &|done| bar.inc(done)));
     bar.finish_and_clear();
     Ok(frame?)
@@ -236,16 +238,18 @@ mod tests {
         let plan = Plan::new(&spec, &scene).expect("a plan");
         // A renderer fails for good on a plan of another scene; the CPU then says what is wrong in its own words.
         let other = Scene::new(vec![crate::scene::Model::default()], Vec::new());
-        let mut backend = Backend::Gpu { device, or_cpu: false, gave_up: Cell::new(false) };
-        let error = backend.maps(&other, &plan, &mut Stages::default()).expect_err("another scene");
+        let messages = Messages { quiet: true, color: clap::ColorChoice::Never };
+        let stages = || Stages::new(messages);
+        let mut backend = Backend::Gpu { device, or_cpu: false, gave_up: Cell::new(false), messages };
+        let error = backend.maps(&other, &plan, &mut stages()).expect_err("another scene");
         assert!(error.message.starts_with("the GPU cannot make this picture"), "{error}");
         assert_eq!(backend.name(), "gpu");
         if let Backend::Gpu { or_cpu, .. } = &mut backend {
             *or_cpu = true;
         }
-        let error = backend.maps(&other, &plan, &mut Stages::default()).expect_err("another scene");
+        let error = backend.maps(&other, &plan, &mut stages()).expect_err("another scene");
         assert!(error.message.starts_with("the plan was made for another scene"), "{error}");
         assert_eq!(backend.name(), "cpu");
-        assert!(backend.maps(&scene, &plan, &mut Stages::default()).is_ok(), "the CPU goes on");
+        assert!(backend.maps(&scene, &plan, &mut stages()).is_ok(), "the CPU goes on");
     }
 }

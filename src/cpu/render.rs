@@ -100,12 +100,20 @@ impl<'a> Renderer<'a> {
         Ok(Self { plan, tracer: Tracer::new(scene, plan) })
     }
 
-    /// The picture; with `aovs`, what lies at the centre of each pixel, too. `done` is called with the number of
-    /// pixels of each finished tile, from any thread.
+    /// The picture, with its legend where the plan has one; with `aovs`, what lies at the centre of each pixel, too.
+    /// `done` is called with the number of pixels of each finished tile, from any thread.
     ///
     /// # Errors
     /// There is no memory for the picture.
     pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Result<Frame, Error> {
+        let mut frame = self.render_bare(aovs, done)?;
+        if self.plan.has_legend {
+            crate::legend::draw(self.plan, &mut frame);
+        }
+        Ok(frame)
+    }
+
+    fn render_bare(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Result<Frame, Error> {
         let size = self.plan.view.size;
         check_memory(size, aovs)?;
         self.tracer.start_picture();

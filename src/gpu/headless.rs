@@ -98,7 +98,11 @@ impl Headless {
         options: RenderOptions,
         timings: &mut Option<Timings>,
     ) -> Result<Frame, Error> {
-        self.render_part(renderer, scene, plan, Window::whole(&plan.view), options, timings)
+        let mut frame = self.render_part(renderer, scene, plan, Window::whole(&plan.view), options, timings)?;
+        if plan.has_legend {
+            crate::legend::draw(plan, &mut frame);
+        }
+        Ok(frame)
     }
 
     /// A part of the picture.

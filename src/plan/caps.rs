@@ -135,8 +135,7 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
         }
     };
     let has_cap = |filter: &&At<Filter>| matches!(filter.value, Filter::Erase { cap: Some(_), .. });
-    let line = spec.source.line(filters.iter().find(has_cap)?.span.start);
-    Some((format!("{}:{line}", spec.source.name), name))
+    Some((spec.source.place(filters.iter().find(has_cap)?.span.start), name))
 }
 
 /// The nodes that may be cut, in each of the ways in which all of a node is shown; the smallest first: of those that lie

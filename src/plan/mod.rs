@@ -38,7 +38,7 @@ pub use instances::{Instance, Step};
 pub use items::{Content, Item, Selection};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
-pub use op::{Op, filter_name};
+pub use op::{LegendEntry, LegendLook, Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
 pub use own::OwnSurface;
 pub use reasons::Reasons;
@@ -78,6 +78,10 @@ pub struct Plan {
     pub customs: Vec<Arc<Custom>>,
     /// The values of their parameters, one filter's after the other's.
     pub custom_words: Vec<u32>,
+    /// What false colours and contour lines stand for, in the order of their filters.
+    pub legend: Vec<LegendEntry>,
+    /// Whether the picture tells so.
+    pub has_legend: bool,
     /// What can be drawn: the scene, then each content that some `show` names.
     pub contents: Vec<Content>,
     /// What is drawn, in the order that decides ties: by content, node, primitive.
@@ -116,7 +120,7 @@ impl Plan {
         let mut ops = op::Ops::new(spec, scene, &view);
         let lenses = lenses::rank_lenses(spec, &graph, &order, &volumes, &mut ops)?;
         let rules = rules::collect(spec, &lenses, &mut ops)?;
-        let op::Ops { list: ops, channels, customs, custom_words, .. } = ops;
+        let op::Ops { list: ops, channels, customs, custom_words, legend, .. } = ops;
         let (contents, mut items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let mut warnings = warnings::collect(spec, scene);
         warnings.extend(graph.idle_cycles(spec));
@@ -145,6 +149,8 @@ impl Plan {
             channels,
             customs,
             custom_words,
+            legend,
+            has_legend: spec.image.legend,
             contents,
             items,
             instances,

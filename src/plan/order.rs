@@ -92,7 +92,6 @@ impl PriorityGraph {
     /// The cycles that only disabled lenses close, a line each: what would be an error with all of them enabled.
     pub fn idle_cycles(&self, spec: &Spec) -> Vec<String> {
         let warning = |cycle: Vec<EdgeIndex>| {
-            let line = spec.source.line(self.graph[cycle[0]].span.start);
             let ends = |edge: &EdgeIndex| self.graph.edge_endpoints(*edge);
             let mut disabled: Vec<&str> = cycle
                 .iter()
@@ -102,8 +101,8 @@ impl PriorityGraph {
             disabled.sort_unstable();
             let is = if disabled.len() == 1 { "is" } else { "are" };
             format!(
-                "{}:{line}: once {} {is} enabled, {}",
-                spec.source.name,
+                "{}: once {} {is} enabled, {}",
+                spec.source.place(self.graph[cycle[0]].span.start),
                 disabled.join(", "),
                 cycle_text(spec, self, &cycle)
             )
@@ -290,8 +289,8 @@ fn cycle_text(spec: &Spec, graph: &PriorityGraph, cycle: &[EdgeIndex]) -> String
     names.push(names[0]);
     let lines = cycle.iter().zip(ends()).map(|(edge, (below, above))| {
         let declared = &graph.graph[*edge];
-        let line = spec.source.line(declared.span.start);
-        format!("line {line} (`{}`) puts `{below}` below `{above}`", declared.key.name())
+        let spot = spec.source.spot(declared.span.start);
+        format!("{spot} (`{}`) puts `{below}` below `{above}`", declared.key.name())
     });
     let lines: Vec<String> = lines.collect();
     format!("the order of the lenses goes in a circle: {}: {}", names.join(" < "), lines.join(", "))

@@ -96,6 +96,11 @@ impl Plan {
         self.filters_of(rank).iter().map(filter_name)
     }
 
+    /// The lens that a filter's record belongs to; rules have no names.
+    pub fn actor_of_op(&self, op: usize) -> &str {
+        self.lenses.iter().find(|lens| lens.ops.contains(&op)).map_or("a rule", |lens| &lens.name)
+    }
+
     /// Into [`Plan::ops`]: the appearance filters of a lens or rule of a stack.
     pub fn ops_of(&self, rank: usize) -> Range<usize> {
         match self.rule_of(rank) {

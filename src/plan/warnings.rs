@@ -13,20 +13,21 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
         }
     }
     if let Some(time) = spec.scene.time.as_ref().filter(|_| !moves(scene)) {
-        let line = spec.source.line(time.span.start);
-        warnings
-            .push(format!("{}:{line}: `time` changes nothing: no node of the models is animated", spec.source.name));
+        warnings.push(format!(
+            "{}: `time` changes nothing: no node of the models is animated",
+            spec.source.place(time.span.start)
+        ));
     }
     let (nodes_of_scene, nodes) = (scene.models[0].node_names(), node_names(&scene.models));
     let materials = Names::new(scene.models.iter().flat_map(|m| &m.materials).map(|m| m.name.as_str()));
     let mut told = 0;
     let mut check = |place: String, patterns: &[At<Pattern>], names: &Names| {
         for pattern in patterns.iter().filter(|p| !names.any(&p.value)) {
-            let line = spec.source.line(pattern.span.start);
+            let here = spec.source.place(pattern.span.start);
             told += 1;
             let near = if told > MOST_NEAREST { None } else { nearest(&pattern.value.0, names.iter()) };
             let help = near.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
-            warnings.push(format!("{}:{line}: {place} matches nothing: `{}`{help}", spec.source.name, pattern.value));
+            warnings.push(format!("{here}: {place} matches nothing: `{}`{help}", pattern.value));
         }
     };
     check("`hide`".into(), &spec.scene.hide, &nodes_of_scene);
@@ -73,8 +74,7 @@ pub(super) fn of_reach(spec: &Spec, lenses: &[Lens], items: &[Item], instances: 
         } else {
             return None;
         };
-        let line = spec.source.line(own.name.span.start);
-        Some(format!("{}:{line}: lens `{}` {problem}", spec.source.name, lens.name))
+        Some(format!("{}: lens `{}` {problem}", spec.source.place(own.name.span.start), lens.name))
     };
     lenses.iter().enumerate().filter_map(warn).collect()
 }
@@ -112,9 +112,8 @@ pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Ite
         }
         let filter = filters.iter().find(|filter| matches!(filter.value, Filter::Lod { .. }))?;
         Some(format!(
-            "{}:{}: `lod` of {name} leaves {:.1} % of the triangles, not {:.1} %: fewer would move borders, or surfaces too far",
-            spec.source.name,
-            spec.source.line(filter.span.start),
+            "{}: `lod` of {name} leaves {:.1} % of the triangles, not {:.1} %: fewer would move borders, or surfaces too far",
+            spec.source.place(filter.span.start),
             100.0 * left / all,
             100.0 * ratio,
         ))

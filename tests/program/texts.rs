@@ -73,6 +73,24 @@ fn schema_is_a_json_schema_of_the_format() {
 }
 
 #[test]
+fn shells_and_man_know_every_command() {
+    let commands = ["render", "check", "explain", "pick", "bench", "info", "init", "filters", "shapes", "schema"];
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let out = call(&["completions", shell]).good();
+        assert!(commands.iter().all(|command| out.contains(command)) && out.contains("set"), "{shell}");
+    }
+    let page = call(&["man"]).good();
+    assert!(page.contains(".TH lenspeel 1"), "{page}");
+    assert!(commands.iter().all(|command| page.contains(&format!("lenspeel\\-{command}"))), "{page}");
+    for command in commands {
+        let page = call(&["man", command]).good();
+        assert!(page.contains(&format!(".TH lenspeel-{command} 1")), "{page}");
+        assert!(page.contains(&format!("lenspeel {command}")), "{page}");
+    }
+    assert!(call(&["man", "rendr"]).refused().contains("did you mean `render`"));
+}
+
+#[test]
 fn info_finds_names_and_writes_json() {
     let model = project("lens-specs/models/ball-in-box.glb");
     let out = call(&["info", &model, "b?ll"]).good();

@@ -63,12 +63,7 @@ pub fn run(args: &InfoArgs) -> Result<(), InputError> {
     let model = Model::load_with(&args.model, None, &args.open.options())?;
     let patterns = args.patterns.iter().map(Pattern::new).collect();
     let choice = InfoChoice { all: args.all, patterns };
-    if args.json {
-        super::print_json(&info_json(&model, &choice));
-    } else {
-        super::print(&info_text(&model, &choice));
-    }
-    Ok(())
+    if args.json { super::print_json(&info_json(&model, &choice)) } else { super::print(&info_text(&model, &choice)) }
 }
 
 /// Everything worth knowing about a model, as aligned text; with patterns, what they match.

@@ -18,7 +18,7 @@ mod material;
 mod nodes;
 mod open;
 mod texture;
-mod uri;
+pub(super) mod uri;
 mod warnings;
 
 use std::borrow::Cow;
@@ -26,6 +26,7 @@ use std::path::Path;
 
 use super::{BoundsCache, Budget, ClosureCache, Model, OpenOptions};
 use crate::spec::SceneChoice;
+use crate::words::count_of;
 use crate::{InputError, printable};
 use open::{Fault, Fetch};
 use warnings::Warnings;
@@ -58,11 +59,6 @@ pub(super) fn object(kind: &str, index: usize, name: Option<&str>) -> String {
         Some(name) if !name.is_empty() => format!("{kind} {index} `{}`", printable::name(name)),
         _ => format!("{kind} {index}"),
     }
-}
-
-/// ``1 triangle``, ``2 triangles``.
-fn count_of(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 impl Model {

@@ -3,7 +3,8 @@
 use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
 use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
 use super::ParamKind::{
-    Bool, Cap, Choice, Color, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text, Vector,
+    Bool, Cap, Choice, Color, ColorMap, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text,
+    Vector,
 };
 use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::NumberRange;
@@ -128,21 +129,20 @@ const UV: &[&str] = &["mesh", "planar-x", "planar-y", "planar-z", "box", "sphere
 const NORMALS: &[Param] = &[
     param(
         "colormap",
-        MAPS,
+        ColorMap,
         Meaning("x, y, z as red, green, blue"),
         "colours of the slope: 1 level, 0 upright, -1 from below",
     ),
-    param("range", Interval, Meaning("-1 to 1"), "slopes at the ends of the colours"),
+    param("range", Interval, Meaning("-1 to 1"), "slopes at the ends of the colours; may run backwards"),
 ];
-const MAPS: ParamKind = Choice(crate::color_map::NAMES);
 const FALSE_COLOR: &[Param] = &[
-    param("colormap", MAPS, Word("viridis"), "colours of the values"),
-    param("range", Interval, FITTED, "values at the ends of the colours"),
+    param("colormap", ColorMap, Word("viridis"), "colours of the values"),
+    param("range", Interval, FITTED, "values at the ends of the colours; may run backwards"),
 ];
 const ATTRIBUTE: &[Param] = &[
     param("name", Text, Required, "of the attribute, such as _TEMPERATURE"),
-    param("colormap", MAPS, Word("viridis"), "colours of the values"),
-    param("range", Interval, FITTED, "values at the ends of the colours"),
+    param("colormap", ColorMap, Word("viridis"), "colours of the values"),
+    param("range", Interval, FITTED, "values at the ends of the colours; may run backwards"),
 ];
 const CONTOURS: &[Param] = &[
     param(

@@ -6,34 +6,63 @@ use toml::de::DeTable;
 
 use super::item::{File, Item};
 use super::table::Table;
-use super::{camera, image, keys, later, lens, light, links, overlap, scene};
+use super::{camera, image, keys, later, lens, light, links, overlap, scene, set};
 use crate::InputError;
+use crate::file_kind::FileKind;
 use crate::limits::MAX_SPEC_BYTES;
 use crate::spec::{NumberRange, Source, Spec};
 
 impl Spec {
     /// Reads a spec file; relative paths in it start at its folder.
     pub fn load(path: &Path) -> Result<Spec, InputError> {
+        Self::load_with(path, &[])
+    }
+
+    /// The same with settings, see [`Spec::parse_with`].
+    pub fn load_with(path: &Path, settings: &[String]) -> Result<Spec, InputError> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| {
             InputError::new(format!("cannot read the spec file {name}: {error}")).help("check the path")
         })?;
+        Self::from_bytes(bytes, &name, path.parent().unwrap_or(Path::new("")), settings)
+    }
+
+    /// Reads a spec as it came from a file or a pipe. `name` stands for it in messages; relative paths start at
+    /// `folder`; settings as in [`Spec::parse_with`].
+    pub fn from_bytes(bytes: Vec<u8>, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
+        let kind = FileKind::of(&bytes);
+        if kind.is_model() {
+            let message = format!("{name} is {}, and a lens spec is expected", kind.name);
+            return Err(InputError::new(message).help(format!("`lenspeel init {name} -o SPEC.toml` writes a spec for it")));
+        }
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             InputError::new(format!("the spec file {name} is not text: byte {at} is not UTF-8"))
                 .help("a spec is a TOML file saved as UTF-8")
         })?;
-        Self::parse(&text, &name, path.parent().unwrap_or(Path::new("")))
+        Self::parse_with(&text, name, folder, settings)
     }
 
     /// Reads a spec from its text. `name` stands for the file in messages; relative paths start at `folder`.
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Spec, InputError> {
-        if text.len() as u64 > MAX_SPEC_BYTES {
-            let message = format!("the spec {name} has {} bytes, and at most {MAX_SPEC_BYTES} can be", text.len());
+        Self::parse_with(text, name, folder, &[])
+    }
+
+    /// The same with settings: each is `KEY=VALUE` with a dotted key (`lens.probe.center`, where `probe` is the lens of
+    /// that name) and a TOML value, and holds as if the file said so.
+    pub fn parse_with(text: &str, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
+        let source = Source::with_settings(name, text, settings);
+        let size = source.text.len();
+        if size as u64 > MAX_SPEC_BYTES {
+            let message = format!("the spec {name} has {size} bytes, and at most {MAX_SPEC_BYTES} can be");
             return Err(InputError::new(message).help("long lists of points belong into a model: see the shape `mesh`"));
         }
-        let source = Source::new(name, text);
-        let document = DeTable::parse(text).map_err(|error| not_toml(&source, &error))?;
+        let mut parts = source.parts();
+        let of_file = parts.next().unwrap_or_default();
+        let mut document = DeTable::parse(&source.text[of_file]).map_err(|error| not_toml(&source, &error))?;
+        for part in parts {
+            set::apply(document.get_mut(), &source, part)?;
+        }
         let file = File::new(&source, folder);
         let table = Table::of_map(&file, "a spec", document.get_ref(), document.span(), keys::DOCUMENT);
         let spec = read(&table, &source);

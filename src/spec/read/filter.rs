@@ -10,6 +10,7 @@ use super::suggest;
 use super::table::{entries, only_entry};
 use super::{cap, color};
 use crate::InputError;
+use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
@@ -246,6 +247,7 @@ fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
             let choices: Vec<_> = words.iter().map(|word| (*word, *word)).collect();
             Value::Text(item.at(item.choice(&choices)?.to_owned()))
         }
+        ParamKind::ColorMap => Value::Text(item.at(color_map(item)?.to_owned())),
         ParamKind::Patterns => Value::Patterns(item.patterns()?),
         ParamKind::Vector => Value::Vector(item.vector()?),
         ParamKind::Cap => Value::Cap(cap::read(item)?),
@@ -282,11 +284,21 @@ fn number_or_pair(item: &Item, range: NumberRange) -> Result<[f64; 2], InputErro
 }
 
 fn interval(item: &Item) -> Result<[f64; 2], InputError> {
-    let [low, high] = item.numbers(NumberRange::ANY)?;
-    if low < high {
-        return Ok([low, high]);
+    let [first, last] = item.numbers(NumberRange::ANY)?;
+    if first != last {
+        return Ok([first, last]);
     }
-    Err(item.error(format!("`{}` must be [low, high] with low below high, not [{low}, {high}]", item.name)))
+    Err(item.error(format!("`{}` must be two numbers that differ, not [{first}, {last}]", item.name)))
+}
+
+/// A known name, reversed or not.
+fn color_map<'a>(item: &Item<'a>) -> Result<&'a str, InputError> {
+    let name = item.text()?;
+    if color_map::colors(name).is_some() {
+        return Ok(name);
+    }
+    let names: Vec<_> = color_map::NAMES.iter().map(|name| (*name, *name)).collect();
+    item.choice(&names)
 }
 
 fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {

@@ -16,6 +16,7 @@ pub fn read(item: &Item) -> Result<ImageSpec, InputError> {
         samples: table.read("samples", samples).unwrap_or(default.samples),
         background: table.read("background", background).unwrap_or(default.background),
         tone_mapping: table.read("tone_mapping", tone_mapping).unwrap_or(default.tone_mapping),
+        legend: table.read("legend", Item::boolean).unwrap_or(default.legend),
     })
 }
 

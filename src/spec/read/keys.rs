@@ -4,7 +4,7 @@
 pub const DOCUMENT: &[&str] = &["version", "scene", "camera", "image", "light", "lens", "overlap", "animation"];
 pub const SCENE: &[&str] = &["file", "scene", "time", "hide", "backfaces", "alternates"];
 pub const CAMERA: &[&str] = &["eye", "target", "up", "fov_y", "orthographic_height", "near", "far", "node"];
-pub const IMAGE: &[&str] = &["size", "samples", "background", "tone_mapping"];
+pub const IMAGE: &[&str] = &["size", "samples", "background", "tone_mapping", "legend"];
 pub const LIGHT: &[&str] = &["ambient", "directional"];
 pub const DIRECTIONAL: &[&str] = &["direction", "color", "intensity"];
 pub const LENS: &[&str] = &[
