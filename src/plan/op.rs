@@ -189,7 +189,7 @@ impl<'a> Ops<'a> {
                 let from = self.counted_from(quantity);
                 let beyond = from - (from / spacing).round() * spacing;
                 let lines = Op::new(wgsl::OP_CONTOURS, NONE, [beyond as f32, 0.0, spacing as f32, *width]);
-                self.reading(lines, quantity).with_color(*color)
+                self.reading(lines, quantity)?.with_color(*color)
             }
             Filter::Toon { levels } => Op::new(wgsl::OP_TOON, NONE, one(*levels as f32)),
             Filter::Hatch { spacing, width, color } => {
@@ -260,7 +260,7 @@ impl<'a> Ops<'a> {
         let op = self.reading(
             Op::new(kind, NONE, [(low - self.counted_from(quantity)) as f32, scale as f32, 0.0, 0.0]),
             quantity,
-        );
+        )?;
         Ok(Op { texture, ..op.flagged(wgsl::MAPPED.0, true) })
     }
 
@@ -286,7 +286,10 @@ impl<'a> Ops<'a> {
     }
 
     /// The same, told what it reads.
-    fn reading(&mut self, op: Op, quantity: &Quantity) -> Op {
+    fn reading(&mut self, op: Op, quantity: &Quantity) -> Result<Op, InputError> {
+        if let Some(name) = quantity.value_name() {
+            self.range_of_values(name)?;
+        }
         let kind = match quantity {
             Quantity::Slope => wgsl::QUANTITY_SLOPE,
             Quantity::Depth => wgsl::QUANTITY_DEPTH,
@@ -299,7 +302,7 @@ impl<'a> Ops<'a> {
                 self.channels.len() - 1
             })
         });
-        Op { flags: op.flags | kind.0 << 8 | (channel as u32) << 16, ..op }
+        Ok(Op { flags: op.flags | kind.0 << 8 | (channel as u32) << 16, ..op })
     }
 
     /// The range of a quantity in the scene, or of the depths at which it is seen.
