@@ -2,15 +2,21 @@
 
 use colorgrad::{BlendMode, CatmullRomGradient, Color, Gradient, GradientBuilder, preset};
 
-/// The names that filters take: perceptually even ones first, then the diverging and the single-hued.
+/// The names that filters take: perceptually even ones first, then the diverging.
 pub const NAMES: &[&str] =
     &["viridis", "magma", "inferno", "plasma", "cividis", "turbo", "coolwarm", "spectral", "rdbu", "rdylbu", "brbg"];
+
+/// Behind a name: the same colours from the high to the low end.
+pub const REVERSED: &str = "-r";
 
 /// Colours of a map.
 pub const STEPS: u32 = 256;
 
 /// The colours of a map from its low to its high end, sRGB. `None` for an unknown name.
 pub fn colors(name: &str) -> Option<Vec<[u8; 4]>> {
+    if let Some(name) = name.strip_suffix(REVERSED).filter(|name| !name.ends_with(REVERSED)) {
+        return colors(name).map(|colors| colors.into_iter().rev().collect());
+    }
     let gradient: Box<dyn Gradient> = match name {
         "viridis" => Box::new(preset::viridis()),
         "magma" => Box::new(preset::magma()),
@@ -23,10 +29,6 @@ pub fn colors(name: &str) -> Option<Vec<[u8; 4]>> {
         "rdbu" => Box::new(preset::rd_bu()),
         "rdylbu" => Box::new(preset::rd_yl_bu()),
         "brbg" => Box::new(preset::br_bg()),
-        "blues" => Box::new(preset::blues()),
-        "greens" => Box::new(preset::greens()),
-        "oranges" => Box::new(preset::oranges()),
-        "greys" => Box::new(preset::greys()),
         _ => return None,
     };
     Some((0..STEPS).map(|i| gradient.at(i as f32 / (STEPS - 1) as f32).to_rgba8()).collect())
@@ -54,6 +56,9 @@ mod tests {
             assert_ne!(colors.first(), colors.last(), "{name}");
         }
         assert_eq!(colors("jet"), None);
+        let reversed = colors("magma").map(|colors| colors.into_iter().rev().collect::<Vec<_>>());
+        assert_eq!(colors("magma-r"), reversed);
+        assert_eq!(colors("magma-r-r"), None);
     }
 
     /// The published ends and middles.

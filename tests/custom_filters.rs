@@ -8,8 +8,6 @@ use lenspeel::cli::report;
 use lenspeel::custom::{Custom, Given, SurfaceValue, Value};
 use lenspeel::spec::Source;
 
-/// Columns of the reports.
-const WIDTH: usize = 100;
 /// A walk that finds fewer has looked in the wrong place.
 const LEAST_REFUSED: usize = 60;
 
@@ -39,7 +37,7 @@ fn every_invalid_filter_is_refused_as_recorded() {
         let name = format!("{}.wgsl", stem(&path));
         match Custom::parse(&text, &name) {
             Ok(_) => panic!("{name} is accepted"),
-            Err(error) => insta::assert_snapshot!(stem(&path), report(&error, WIDTH, false)),
+            Err(error) => insta::assert_snapshot!(stem(&path), report(&error, false)),
         }
     }
 }
@@ -118,11 +116,11 @@ fn files_that_are_no_text_or_too_large_are_refused_as_a_whole() {
 
 fn example(name: &str) -> Custom {
     let text = fs::read_to_string(format!("lens-specs/wgsl/{name}.wgsl")).expect("an example");
-    Custom::parse(&text, name).unwrap_or_else(|error| panic!("{}", report(&error, WIDTH, false)))
+    Custom::parse(&text, name).unwrap_or_else(|error| panic!("{}", report(&error, false)))
 }
 
 fn words(custom: &Custom, given: &[(&str, Value)]) -> Vec<u32> {
-    let source = Source { name: "spec.toml".into(), text: "".into() };
+    let source = Source::new("spec.toml", "");
     let given: Vec<Given> =
         given.iter().map(|(name, value)| Given { name: (*name).into(), span: 0..0, value: value.clone() }).collect();
     custom.values(&source, &given).expect("values of the right types")

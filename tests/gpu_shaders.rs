@@ -33,6 +33,7 @@ const LITTLE: Needs = Needs {
     filters: 0,
     quantities: false,
     hidden_lines: false,
+    large: false,
     channels: 0,
     screen: false,
 };
@@ -60,6 +61,7 @@ const MOST: Needs = Needs {
     filters: u64::MAX,
     quantities: true,
     hidden_lines: true,
+    large: true,
     channels: 3,
     screen: true,
 };
@@ -196,8 +198,6 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
         "Frame",
         FrameRecord,
         [
-            ray_fixed,
-            ray_base,
             ray_dx,
             ray_dy,
             right,
@@ -205,6 +205,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             forward,
             clip_scale,
             clip_shift,
+            middle,
+            shares,
             near,
             far,
             perspective,
@@ -226,7 +228,11 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             after_key,
             after_item,
             tone_mapping,
-            eye,
+            drawn_from_eye,
+            origin,
+            anchor,
+            merge_most,
+            merge_across,
             picture_scale,
             by_pixel,
             translucent,
@@ -279,8 +285,8 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
         "Part",
         PartRecord,
         [
-            ray_fixed,
-            ray_base,
+            ray_origin,
+            ray_direction,
             ray_dx,
             ray_dy,
             normal_x,
@@ -304,7 +310,10 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             node_count,
             first_triangle,
             first_vertex,
-            crossing_room
+            crossing_room,
+            first_projected,
+            reference,
+            origin
         ]
     );
     assert_eq!(size("Part"), size_of::<PartRecord>());

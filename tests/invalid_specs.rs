@@ -9,8 +9,6 @@ use lenspeel::plan::Plan;
 use lenspeel::scene::Scene;
 use lenspeel::spec::Spec;
 
-/// Columns of the reports.
-const WIDTH: usize = 100;
 /// A walk that finds fewer has looked in the wrong place.
 const LEAST_SPECS: usize = 130;
 
@@ -41,7 +39,7 @@ fn refusal(path: &Path, name: &str) -> String {
     let text = fs::read_to_string(path).expect("a readable spec");
     match decide(&text, name) {
         Ok(_) => panic!("{name} is accepted"),
-        Err(error) => report(&error, WIDTH, false),
+        Err(error) => report(&error, false),
     }
 }
 

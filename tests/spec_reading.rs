@@ -29,7 +29,7 @@ fn scene_and_image() {
     assert_eq!(alternates, ["zebra", "bones"], "file order");
     assert_eq!(
         spec.image,
-        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None }
+        ImageSpec { size: [640, 480], samples: 9, background: None, tone_mapping: ToneMapping::None, legend: true }
     );
 }
 
@@ -57,7 +57,7 @@ fn lenses() {
     assert_eq!(shell.filters[1].value, tint);
     let Shape::Box { center, size, .. } = probe.shape.value else { panic!("a box") };
     assert_eq!((center, size), ([0.5, 1.0, 1.5], [1.0, 2.0, 3.0]));
-    let Filter::Show(ShowWhat::Alternate(name)) = &cut.filters[0].value else { panic!("show") };
+    let Filter::Show(ShowWhat::Alternate { name, .. }) = &cut.filters[0].value else { panic!("show") };
     assert_eq!(name.value, "bones");
     assert!(!cut.enabled && cut.priority == -3);
     assert_eq!([probe, cut].map(|lens| lens.glass.map(|glass| glass.contact)), [Some(2.0), Some(0.0)]);
@@ -144,7 +144,7 @@ fn deep_nesting_is_an_error_rather_than_an_overflow() {
 /// An error's text can always be printed, with its lines.
 fn read_and_report(text: &str) {
     if let Err(error) = parse(text) {
-        assert!(!lenspeel::cli::report(&error, 80, false).is_empty());
+        assert!(!lenspeel::cli::report(&error, false).is_empty());
         assert!(!error.message.is_empty());
     }
 }

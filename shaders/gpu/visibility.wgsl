@@ -17,14 +17,14 @@ fn vertex(
 ) -> Varying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    let position = clip_position(p, depth, drawn_depth(depth));
+    let position = clip_position(p, depth, place_between_planes(depth));
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
     return Varying(position, item, vertex - shown.base_vertex, depth);
 }
 
-// Reverse-Z: infinite far plane in perspective, linear otherwise.
+// Reverse-Z over what there is to be drawn: 1 to 0, linear for an orthographic camera.
 fn drawn_depth(depth: f32) -> f32 {
-    return select((frame.far - depth) / (frame.far - frame.near), frame.near / depth, frame.perspective != 0u);
+    return place_between_planes(depth) * select(1.0, frame.drawn_from_eye / (frame.anchor + depth), frame.perspective != 0u);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.
@@ -37,14 +37,18 @@ fn plain(in: Varying) -> @location(0) vec2u {
 @fragment
 fn fused(in: Varying) -> Kept {
     let pixel = vec2u(in.position.xy);
-    if in.depth < frame.near || in.depth > frame.far {
+    var depth = in.depth;
+    if has_planes(in.item) {
+        depth = meeting(in.item, in.triangle, pixel_ray(pixel)).hit.depth;
+    }
+    if depth < frame.near || depth > frame.far {
         discard;
     }
     if !TAKEN_AWAY && !TRANSLUCENT {
-        return kept(vec2u(in.item + 1u, in.triangle), in.position.z);
+        return kept(vec2u(in.item + 1u, in.triangle), z_of(in, depth));
     }
-    let around = set_at(tile_at(pixel), pixel, in.depth);
-    return keep(in, pixel, pixel_ray(pixel), in.depth, around);
+    let around = set_at(tile_at(pixel), pixel, depth);
+    return keep(in, pixel, pixel_ray(pixel), depth, around);
 }
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
@@ -57,7 +61,7 @@ fn peel(in: Varying) -> Kept {
         discard;
     }
     let ray = pixel_ray(pixel);
-    let hit = surface_hit(ray, fetch_triangle(in.item, in.triangle));
+    let hit = surface_hit(in.item, in.triangle, ray, fetch_triangle(in.item, in.triangle));
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
@@ -75,7 +79,7 @@ fn peel(in: Varying) -> Kept {
 // For `explain`: the nearest fragment behind a given one, whatever the lenses make of it.
 @fragment
 fn next_behind(in: Varying) -> @location(0) vec2u {
-    let hit = surface_hit(pixel_ray(vec2u(in.position.xy)), fetch_triangle(in.item, in.triangle));
+    let hit = meeting(in.item, in.triangle, pixel_ray(vec2u(in.position.xy))).hit;
     if hit.depth < frame.near || hit.depth > frame.far {
         discard;
     }
@@ -85,6 +89,14 @@ fn next_behind(in: Varying) -> @location(0) vec2u {
         discard;
     }
     return vec2u(in.item + 1u, in.triangle);
+}
+
+// The drawn depth of a fragment.
+fn z_of(in: Varying, depth: f32) -> f32 {
+    if has_planes(in.item) {
+        return drawn_depth(depth);
+    }
+    return in.position.z;
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
@@ -97,7 +109,7 @@ fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Ke
         append(head_of(pixel), meeting(in.item, in.triangle, ray).hit.depth, in.item, in.triangle);
         discard;
     }
-    var z = in.position.z;
+    var z = z_of(in, depth);
     if verdict.fills {
         z = drawn_depth(depth + items[in.item].spread);
     }

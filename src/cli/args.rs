@@ -1,17 +1,28 @@
 //! The command line.
 
-use std::path::PathBuf;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, ColorChoice, Parser, Subcommand, ValueEnum};
 
+use super::open::OpenArgs;
+use super::outputs::is_stream;
+use crate::InputError;
+use crate::limits::MAX_SPEC_BYTES;
 use crate::output::Aov;
-use crate::spec::ImageSpec;
+use crate::spec::{ImageSpec, Spec};
 
 #[derive(Debug, Parser)]
 #[command(name = "lenspeel", version, about = "Composed 3D magic lenses", arg_required_else_help = true)]
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
+    /// Say nothing but warnings and errors
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// Whether messages have colours
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t = ColorChoice::Auto)]
+    pub color: ColorChoice,
 }
 
 #[derive(Debug, Subcommand)]
@@ -20,11 +31,13 @@ pub enum Command {
     Render(RenderArgs),
     /// Check a lens-spec file and everything it names
     Check {
-        /// The lens-spec file
-        spec: PathBuf,
+        #[command(flatten)]
+        spec: SpecArgs,
         /// Fail on warnings, too: lenses whose order only the file decides, patterns that match nothing
         #[arg(long)]
         strict: bool,
+        #[command(flatten)]
+        open: OpenArgs,
     },
     /// Explain the order of the lenses, what acts where, and how much of the picture each region takes
     Explain(ExplainArgs),
@@ -32,11 +45,8 @@ pub enum Command {
     Pick(PickArgs),
     /// Measure what the lenses of a lens-spec file cost on the GPU
     Bench(BenchArgs),
-    /// Describe a glTF model
-    Info {
-        /// A .glb or .gltf file
-        model: PathBuf,
-    },
+    /// Describe a glTF model: what it shows, and the names that specs select by
+    Info(InfoArgs),
     /// Write a starter spec for a glTF model
     Init {
         /// A .glb or .gltf file
@@ -44,6 +54,8 @@ pub enum Command {
         /// Where to write it; left out: to the terminal
         #[arg(short, long)]
         output: Option<PathBuf>,
+        #[command(flatten)]
+        open: OpenArgs,
     },
     /// List the filters with their parameters
     Filters {
@@ -53,15 +65,93 @@ pub enum Command {
         #[arg(long, conflicts_with = "name")]
         markdown: bool,
     },
+    /// List the shapes of lenses with their keys
+    Shapes {
+        /// Only this one
+        name: Option<String>,
+        /// A table of all, in Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
     /// Print a JSON Schema of lens-spec files, for editors
-    Schema,
+    Schema {
+        /// The keys as tables in Markdown instead
+        #[arg(long)]
+        markdown: bool,
+    },
+    /// Print completions for a shell
+    Completions {
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// Print a manual page
+    Man {
+        /// Of this subcommand; left out: of the program
+        command: Option<String>,
+    },
+}
+
+/// A spec and what is changed in it for this once.
+#[derive(Debug, Args)]
+pub struct SpecArgs {
+    /// The lens-spec file; `-` is standard input, and paths in it start at the working folder
+    pub spec: PathBuf,
+    /// Give a key of the spec another value, as in lens.probe.center=[1,0,0] (repeatable; the last one holds)
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+impl SpecArgs {
+    pub fn load(&self) -> Result<Spec, InputError> {
+        if !is_stream(&self.spec) {
+            return Spec::load_with(&self.spec, &self.set);
+        }
+        let mut bytes = Vec::new();
+        std::io::stdin()
+            .lock()
+            .take(MAX_SPEC_BYTES + 1)
+            .read_to_end(&mut bytes)
+            .map_err(|error| InputError::new(format!("cannot read the spec from standard input: {error}")))?;
+        Spec::from_bytes(bytes, "<stdin>", Path::new(""), &self.set)
+    }
+}
+
+#[cfg(all(target_os = "linux", feature = "gpu"))]
+impl Command {
+    /// Whether a graphics device may be looked for.
+    pub fn may_open_device(&self) -> bool {
+        let backend = match self {
+            Command::Render(args) => Some(args.backend),
+            Command::Explain(ExplainArgs { view, .. }) | Command::Pick(PickArgs { view, .. }) => view.backend,
+            Command::Bench(_) => Some(BackendChoice::Gpu),
+            _ => None,
+        };
+        backend.is_some_and(|backend| backend != BackendChoice::Cpu)
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct InfoArgs {
+    /// A .glb or .gltf file
+    pub model: PathBuf,
+    /// Only nodes and materials of these names, as a spec would select them: 'Wheel*'
+    #[arg(value_name = "PATTERN")]
+    pub patterns: Vec<String>,
+    /// Each node and each name whole, where otherwise siblings with like names are one line
+    #[arg(long)]
+    pub all: bool,
+    /// Print JSON, always whole
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The lens-spec file
-    pub spec: PathBuf,
-    /// The picture to write (PNG)
+    #[command(flatten)]
+    pub spec: SpecArgs,
+    /// The picture to write (PNG); `-` is standard output, here and for maps and statistics
     #[arg(short, long)]
     pub output: PathBuf,
     /// Width and height in pixels, as in 1920x1080; left out: the spec's
@@ -85,31 +175,39 @@ pub struct RenderArgs {
     /// The row that `--view depth-intervals` shows, from the top; left out: the middle one
     #[arg(long, requires = "view")]
     pub row: Option<u32>,
+    /// Draw what false colours and contour lines stand for over the lower edge of the picture
+    #[arg(long, conflicts_with = "view")]
+    pub legend: bool,
     /// Print how long each stage took
     #[arg(long)]
     pub time: bool,
     /// Write the times of all stages and the sizes of things to a JSON file
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 /// A spec and how it is seen by the commands that tell about a picture.
 #[derive(Debug, Args)]
 pub struct ViewArgs {
-    /// The lens-spec file
-    pub spec: PathBuf,
+    #[command(flatten)]
+    pub spec: SpecArgs,
     /// Width and height in pixels, as in 1920x1080; left out: the spec's
     #[arg(long, value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Who finds what is seen: the CPU, which need not be started, the GPU, or the GPU where there is a real one
-    #[arg(long, value_enum, default_value_t = BackendChoice::Cpu)]
-    pub backend: BackendChoice,
+    /// Who finds what is seen: the CPU, the GPU, or the GPU where there is a real one; left out: the CPU, which need not
+    /// be started
+    #[arg(long, value_enum)]
+    pub backend: Option<BackendChoice>,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// The lens-spec file
-    pub spec: PathBuf,
+    #[command(flatten)]
+    pub spec: SpecArgs,
     /// How many frames each contender draws, in turn; one more before them is not counted
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: u32,
@@ -119,6 +217,8 @@ pub struct BenchArgs {
     /// Print JSON with every single frame instead of a table
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,8 @@
 use serde_json::json;
 
 use super::args::BenchArgs;
+use super::stages::Stages;
+use super::streams::{Messages, print, print_json};
 use crate::InputError;
 use crate::bench::{Case, Contender, Measured, Sample, Verdict, interleaved};
 use crate::gpu::{
@@ -11,6 +13,7 @@ use crate::gpu::{
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::spec::Spec;
+use crate::words::count_of;
 
 const NO_LENS: &str = "no lens";
 const FUSED: &str = "fused";
@@ -34,27 +37,22 @@ struct Contents {
     storage: LensStorage,
 }
 
-pub fn run(args: &BenchArgs) -> Result<(), InputError> {
-    let mut spec = Spec::load(&args.spec)?;
+pub fn run(args: &BenchArgs, messages: Messages) -> Result<(), InputError> {
+    let mut spec = args.spec.load()?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
-    let scene = Scene::open(&spec)?;
+    let scene = Scene::open_with(&spec, &args.open.options())?;
     let plan = Plan::new(&spec, &scene)?;
     for warning in &plan.warnings {
-        eprintln!("warning: {warning}");
+        messages.warning(warning);
     }
     let adapter = choose_named(None).map_err(no_frame)?;
     let device = Headless::new(&adapter).map_err(no_frame)?;
-    eprintln!("gpu: {}", device.reason);
+    messages.note(format_args!("gpu: {}", device.reason));
     let bare = without_lenses(&spec, &scene, &plan)?;
-    let contents = measure(&device, &scene, &plan, &bare, args.frames).map_err(no_frame)?;
+    let contents = measure(&device, &scene, &plan, &bare, args.frames, messages).map_err(no_frame)?;
     let device_clock = device.has_timestamps();
     let account = Account { spec: &spec, plan: &plan, adapter: &device.reason, device_clock, contents };
-    if args.json {
-        super::print_json(&account.json());
-    } else {
-        super::print(&account.text());
-    }
-    Ok(())
+    if args.json { print_json(&account.json()) } else { print(&account.text()) }
 }
 
 fn no_frame(error: Error) -> InputError {
@@ -70,31 +68,44 @@ fn without_lenses(spec: &Spec, scene: &Scene, plan: &Plan) -> Result<Plan, Input
     Ok(bare)
 }
 
-fn measure(device: &Headless, scene: &Scene, plan: &Plan, bare: &Plan, frames: u32) -> Result<Contents, Error> {
+fn measure(
+    device: &Headless,
+    scene: &Scene,
+    plan: &Plan,
+    bare: &Plan,
+    frames: u32,
+    messages: Messages,
+) -> Result<Contents, Error> {
+    // The first frames are the longest: each makes its pipelines.
+    let bar = Stages::new(messages).progress(1 + 3 * (u64::from(frames) + 1));
     let mut renderer = device.renderer(scene)?;
     // Before any other frame, which might make room that this plan does not need.
     let fused = RenderOptions::default();
+    bar.set_message(FUSED);
     device.render_with(&mut renderer, scene, plan, fused, &mut None)?;
+    bar.inc(1);
     let storage = device.lens_storage(&mut renderer, scene, plan, fused)?;
     let renderer = std::cell::RefCell::new(renderer);
     let contestants = [(NO_LENS, bare, Engine::Fused), (FUSED, plan, Engine::Fused), (PEEL, plan, Engine::Peel)];
     let contender = |(name, plan, engine)| {
-        let (renderer, options) = (&renderer, RenderOptions { engine, aovs: false });
+        let (renderer, bar, options) = (&renderer, &bar, RenderOptions { engine, aovs: false });
         let mut is_settled = false;
         Contender::new(name, move || {
             let mut renderer = renderer.borrow_mut();
+            bar.set_message(name);
             if !is_settled {
                 device.render_with(&mut renderer, scene, plan, options, &mut None)?;
                 is_settled = true;
             }
-            sample(device, &mut renderer, scene, plan, options)
+            let sample = sample(device, &mut renderer, scene, plan, options);
+            bar.inc(1);
+            sample
         })
     };
     let mut contenders = contestants.map(contender);
-    let bar = super::stages::progress(u64::from(frames) + 1);
-    let measured = interleaved(&mut contenders, frames as usize, |_| bar.inc(1))?;
-    bar.finish_and_clear();
+    let measured = interleaved(&mut contenders, frames as usize, |_| ())?;
     drop(contenders);
+    bar.finish_and_clear();
     let mut renderer = renderer.into_inner();
     let triangles = contestants.map(|(_, plan, engine)| {
         let options = RenderOptions { engine, aovs: false };
@@ -143,9 +154,11 @@ impl Account<'_> {
         let rounds = self.contents.measured.first().map_or(0, |m| m.samples.len());
         let samples = self.plan.samples;
         let mut text = format!(
-            "{}: {} enabled lenses, {width} x {height}, {samples} samples a pixel\nmedians of {rounds} interleaved frames each; {clock}\n\n",
+            "{}: {}, {width} x {height}, {} a pixel\nmedians of {} each; {clock}\n\n",
             self.spec.source.name,
-            self.plan.lenses.len(),
+            count_of(self.plan.lenses.len(), "enabled lens"),
+            count_of(samples, "sample"),
+            count_of(rounds, "interleaved frame"),
         );
         let stages: Vec<&str> =
             self.contents.measured.first().map(Measured::stages).unwrap_or_default().iter().map(|s| s.0).collect();

@@ -3,6 +3,7 @@
 use super::args::{ExplainArgs, ExplainFormat, PickArgs, PickFormat, ViewArgs};
 use super::backend::{self, Backend};
 use super::stages::Stages;
+use super::streams::{Messages, print, print_json, print_text};
 use crate::InputError;
 use crate::explain::{Explanation, PixelAccount, point_text};
 use crate::pick::NamedPick;
@@ -19,11 +20,11 @@ struct Opened {
 
 impl Opened {
     fn new(args: &ViewArgs) -> Result<Self, InputError> {
-        let mut spec = Spec::load(&args.spec)?;
+        let mut spec = args.spec.load()?;
         spec.image.size = args.size.unwrap_or(spec.image.size);
         // Only pixel centres are looked at.
         spec.image.samples = 1;
-        let scene = Scene::open(&spec)?;
+        let scene = Scene::open_with(&spec, &args.open.options())?;
         let plan = Plan::new(&spec, &scene)?;
         Ok(Self { spec, scene, plan })
     }
@@ -38,38 +39,38 @@ impl Opened {
     }
 }
 
-fn choose(args: &ViewArgs) -> Result<Backend, InputError> {
-    let (backend, choice) = backend::choose(args.backend)?;
-    eprintln!("{choice}");
+fn choose(args: &ViewArgs, messages: Messages) -> Result<Backend, InputError> {
+    // Nothing is said of a choice that nobody made.
+    let Some(choice) = args.backend else { return Ok(Backend::Cpu) };
+    let (backend, choice) = backend::choose(choice, messages)?;
+    messages.note(choice);
     Ok(backend)
 }
 
-pub fn run(args: &ExplainArgs) -> Result<(), InputError> {
+pub fn run(args: &ExplainArgs, messages: Messages) -> Result<(), InputError> {
     let opened = Opened::new(&args.view)?;
     if let Some(pixel) = args.pixel {
-        return one_pixel(&opened, pixel, args);
+        return one_pixel(&opened, pixel, args, messages);
     }
     let Opened { spec, scene, plan } = &opened;
     let account = Account::new(spec, plan);
     let explanation = Explanation::new(spec, plan, &account);
     match args.format {
-        ExplainFormat::Dot => super::print(&explanation.dot()),
-        ExplainFormat::Mermaid => super::print(&explanation.mermaid()),
+        ExplainFormat::Dot => print(&explanation.dot()),
+        ExplainFormat::Mermaid => print(&explanation.mermaid()),
         ExplainFormat::Text | ExplainFormat::Json => {
-            let backend = choose(&args.view)?;
-            let aovs = backend.maps(scene, plan, &mut Stages::default())?;
-            let explanation = explanation.in_view(&aovs, backend.name());
-            if args.format == ExplainFormat::Json {
-                super::print_json(&explanation);
-            } else {
-                super::print_wrapped(&explanation);
+            let backend = choose(&args.view, messages)?;
+            let aovs = backend.maps(scene, plan, &mut Stages::new(messages))?;
+            let explanation = explanation.in_view(&aovs, backend::in_front(scene, plan)?, backend.name());
+            match args.format {
+                ExplainFormat::Json => print_json(&explanation),
+                _ => print_text(&explanation),
             }
         }
     }
-    Ok(())
 }
 
-fn one_pixel(opened: &Opened, pixel: [u32; 2], args: &ExplainArgs) -> Result<(), InputError> {
+fn one_pixel(opened: &Opened, pixel: [u32; 2], args: &ExplainArgs, messages: Messages) -> Result<(), InputError> {
     if matches!(args.format, ExplainFormat::Dot | ExplainFormat::Mermaid) {
         let message = "one pixel has no graph of lenses, so `--pixel` cannot be drawn as dot or mermaid";
         return Err(InputError::new(message)
@@ -77,28 +78,26 @@ fn one_pixel(opened: &Opened, pixel: [u32; 2], args: &ExplainArgs) -> Result<(),
     }
     opened.check_pixel(pixel)?;
     let Opened { spec, scene, plan } = opened;
-    let backend = choose(&args.view)?;
+    let backend = choose(&args.view, messages)?;
     let report = &backend.explain(scene, plan, pixel)?;
     let account = PixelAccount { spec, scene, plan, pixel, report, backend: backend.name() };
     match args.format {
-        ExplainFormat::Json => super::print_json(&account),
-        _ => super::print_wrapped(&account),
+        ExplainFormat::Json => print_json(&account),
+        _ => print_text(&account),
     }
-    Ok(())
 }
 
 /// What is visible at a pixel.
-pub fn pick(args: &PickArgs) -> Result<(), InputError> {
+pub fn pick(args: &PickArgs, messages: Messages) -> Result<(), InputError> {
     let opened = Opened::new(&args.view)?;
     opened.check_pixel(args.pixel)?;
     let Opened { scene, plan, .. } = &opened;
-    let picked = choose(&args.view)?.pick(scene, plan, args.pixel)?;
+    let picked = choose(&args.view, messages)?.pick(scene, plan, args.pixel)?;
     let named = picked.map(|pick| pick.named(scene, plan));
     match args.format {
-        PickFormat::Json => super::print_json(&named),
-        PickFormat::Text => super::print_wrapped(&pick_text(args.pixel, named.as_ref())),
+        PickFormat::Json => print_json(&named),
+        PickFormat::Text => print_text(&pick_text(args.pixel, named.as_ref())),
     }
-    Ok(())
 }
 
 fn pick_text([x, y]: [u32; 2], pick: Option<&NamedPick>) -> String {

@@ -1,13 +1,69 @@
 //! `lenspeel init MODEL`: a starter spec that fits the model and teaches the format.
 
+use std::path::{Component, Path, PathBuf};
+
 use glam::DVec3;
 
-use crate::scene::{Aabb, Model};
+use super::outputs;
+use super::streams::Messages;
+use crate::InputError;
+use crate::output::{Place, folder_of};
+use crate::scene::{Aabb, Model, OpenOptions};
+use crate::spec::Spec;
 
 /// What `lenspeel init` looks along: from the right, above and in front.
 const VIEW: DVec3 = DVec3::new(1.0, 0.7, 1.3);
 /// Degrees; the format's default.
 const FOV_Y: f64 = 45.0;
+
+/// Writes a starter spec, to standard output where no file is named.
+pub fn run(path: &Path, output: Option<&Path>, options: &OpenOptions, messages: Messages) -> Result<(), InputError> {
+    let output = output.unwrap_or(Path::new(outputs::STREAM));
+    let into_file = !outputs::is_stream(output) && matches!(Place::of(output)?, Place::File(_));
+    if into_file && output.exists() {
+        let message = format!("{} is there already, and a starter spec would replace it", output.display());
+        return Err(InputError::new(message).help("choose another name, or remove it first"));
+    }
+    outputs::check_whole(output, "the starter spec", "toml")?;
+    let model = Model::load_with(path, None, options)?;
+    let file = if into_file { relative(path, folder_of(output)) } else { std::path::absolute(path).ok() };
+    let file = file.unwrap_or_else(|| path.to_path_buf());
+    let name = file.to_str().ok_or_else(|| {
+        InputError::new(format!("the path {} is not UTF-8, and so no spec can name it", file.display()))
+            .help("give the file, or the folder that it is in, another name")
+    })?;
+    let text = init_text(&model, name);
+    // A model may be larger or smaller than the numbers of a spec reach.
+    Spec::parse(&text, "the starter spec", Path::new("")).map_err(|error| {
+        let size = model.bounds().size();
+        let message = format!(
+            "{}: no starter spec fits the model, whose bounds are {:e} x {:e} x {:e}: {}",
+            path.display(),
+            size.x,
+            size.y,
+            size.z,
+            error.message
+        );
+        InputError::new(message).help("scale the model; `lenspeel info` tells its bounds")
+    })?;
+    outputs::write(output, text.as_bytes())?;
+    if into_file {
+        messages.note(format_args!("wrote {}", output.display()));
+    }
+    Ok(())
+}
+
+/// A path to `file` that holds in a spec in `folder`, wherever the two lie; `None` where no relative one does.
+fn relative(file: &Path, folder: &Path) -> Option<PathBuf> {
+    // Links lead elsewhere, and `..` goes up from there.
+    let there = std::fs::canonicalize(folder_of(file)).ok()?;
+    let here = std::fs::canonicalize(folder).ok()?;
+    let shared = there.components().zip(here.components()).take_while(|(a, b)| a == b).count();
+    let is_far = here.components().take(shared).all(|part| !matches!(part, Component::Normal(_)));
+    let up = here.components().skip(shared).map(|_| Component::ParentDir);
+    let path: PathBuf = up.chain(there.components().skip(shared)).collect();
+    if is_far { Some(there.join(file.file_name()?)) } else { Some(path.join(file.file_name()?)) }
+}
 
 /// A commented lens spec for the model; `model_path` is written as the spec's `file`.
 pub fn init_text(model: &Model, model_path: &str) -> String {
@@ -16,6 +72,10 @@ pub fn init_text(model: &Model, model_path: &str) -> String {
     let radius = frame.round(frame.ball_radius);
     let size = frame.vector(frame.slab_size);
     let file = quoted(model_path);
+    let how = match Path::new(model_path).is_absolute() {
+        true => "or relative to this spec: `-o` writes it so",
+        false => "relative to this spec",
+    };
     let scene = scene_line(model);
     let erase = erase_line(model);
     format!(
@@ -25,7 +85,7 @@ pub fn init_text(model: &Model, model_path: &str) -> String {
 version = 1
 
 [scene]
-file = {file}    # relative to this spec
+file = {file}    # {how}
 {scene}
 [camera]
 eye = {eye}

@@ -1,54 +1,66 @@
 //! `lenspeel render`.
 
+use std::path::{Path, PathBuf};
+
 use clap::ValueEnum;
 
 use super::args::{RenderArgs, ViewChoice};
 use super::backend::{self, Backend};
+use super::outputs;
 use super::stages::Stages;
+use super::streams::Messages;
 use crate::InputError;
 use crate::debug_view::{self, DebugView, Row};
 use crate::frame::Frame;
-use crate::output::{write_aov, write_picture, write_whole};
+use crate::legend;
+use crate::output::{encode_aov, encode_picture};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{OpenOptions, Scene};
 use crate::spec::Spec;
+use crate::words::count_of;
 
-pub fn run(args: &RenderArgs) -> Result<(), InputError> {
-    let mut stages = Stages::default();
-    let mut spec = stages.time("spec", || Spec::load(&args.spec))?;
-    super::targets::check(args)?;
+pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
+    let mut stages = Stages::new(messages);
+    let mut spec = stages.time("spec", || args.spec.load())?;
+    outputs::check(args, &spec)?;
     check_row(args, &spec)?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
     spec.image.samples = args.samples.unwrap_or(spec.image.samples);
+    // A debug view has a legend of its own.
+    spec.image.legend = (spec.image.legend || args.legend) && args.view.is_none();
     // A device takes as long to open as many a scene.
     let (opened, device) = std::thread::scope(|scope| {
-        let device = scope.spawn(|| backend::choose(args.backend));
-        (open(&spec, &mut stages), stages.time("device", || device.join()))
+        let device = scope.spawn(|| backend::choose(args.backend, messages));
+        (open(&spec, &args.open.options(), &mut stages), stages.time("device", || device.join()))
     });
     let (scene, plan) = opened?;
     for warning in &plan.warnings {
-        eprintln!("warning: {warning}");
+        messages.warning(warning);
+    }
+    if spec.image.legend {
+        told_of_legend(&plan, messages);
     }
     let (backend, choice) = device.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    eprintln!("{choice}");
+    messages.note(&choice);
     let aovs = !args.aov.is_empty() || args.view.is_some();
     let mut frame = backend.render(&scene, &plan, args.engine, aovs, &mut stages)?;
     if let Some(view) = args.view {
         let drawn = draw_view(view, args.row, &backend, &scene, &plan, &frame)?;
         frame = Frame { aovs: frame.aovs, ..drawn };
     }
-    stages.time("write", || write_all(args, &plan, &frame))?;
+    let written = stages.time("write", || write_all(args, &plan, &frame))?;
     if args.time {
-        eprint!("{}", stages.text());
+        messages.answer(&stages.text());
     }
-    match &args.stats {
-        Some(path) => write_whole(path, stats(args, &plan, &choice, &stages).as_bytes()),
-        None => Ok(()),
-    }
+    written.iter().for_each(|path| messages.note(format_args!("wrote {}", outputs::shown(path))));
+    let Some(path) = &args.stats else { return Ok(()) };
+    outputs::write(path, stats(args, &plan, backend.name(), &choice, &stages).as_bytes())?;
+    messages.note(format_args!("wrote {}", outputs::shown(path)));
+    Ok(())
 }
 
-fn open(spec: &Spec, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
-    let scene = stages.time("scene", || Scene::open(spec))?;
+fn open(spec: &Spec, options: &OpenOptions, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
+    let scene = stages.time("scene", || Scene::open_with(spec, options))?;
     let plan = stages.time("plan", || Plan::new(spec, &scene))?;
     Ok((scene, plan))
 }
@@ -73,7 +85,18 @@ fn draw_view(
             return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs))
+    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
+}
+
+/// Whether the legend shows all that was asked for.
+fn told_of_legend(plan: &Plan, messages: Messages) {
+    let left_out = legend::left_out(plan);
+    if plan.legend.is_empty() {
+        messages.note("note: no lens shows false colours or contour lines, so there is no legend");
+    } else if left_out > 0 {
+        let entries = count_of(left_out, "entry");
+        messages.warning(format_args!("the picture has no room for {entries} of its legend"));
+    }
 }
 
 fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {
@@ -89,19 +112,28 @@ fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {
         .help("rows count from 0 at the top"))
 }
 
-fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<(), InputError> {
-    write_picture(&args.output, frame)?;
+/// Writes the picture and its maps; where to.
+fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<Vec<PathBuf>, InputError> {
+    let mut written = Vec::new();
+    let mut write = |path: &Path, bytes: &[u8]| {
+        written.push(path.to_path_buf());
+        outputs::write(path, bytes)
+    };
+    write(&args.output, &encode_picture(frame)?)?;
     for (aov, path) in &args.aov {
-        if let Some(aovs) = &frame.aovs {
-            write_aov(path, *aov, plan, aovs)?;
+        let Some(aovs) = &frame.aovs else { break };
+        let encoded = encode_aov(*aov, plan, aovs)?;
+        write(path, &encoded.map)?;
+        if let Some(table) = encoded.table {
+            write(&path.with_extension("json"), table.as_bytes())?;
         }
     }
-    Ok(())
+    Ok(written)
 }
 
-fn stats(args: &RenderArgs, plan: &Plan, choice: &str, stages: &Stages) -> String {
+fn stats(args: &RenderArgs, plan: &Plan, backend: &str, choice: &str, stages: &Stages) -> String {
     let engine = args.engine.and_then(|e| e.to_possible_value()).map_or("fused".into(), |e| e.get_name().to_string());
-    let (backend, reason) = choice.split_once(": ").unwrap_or((choice, ""));
+    let reason = choice.split_once(": ").map_or("", |(_, reason)| reason);
     let stats = serde_json::json!({
         "backend": backend,
         "reason": reason,

@@ -1,15 +1,35 @@
 //! An [`InputError`] with the lines of the file it points into.
 
 use std::fmt;
+use std::ops::Range;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
+    SourceSpan, SpanContents,
+};
 
+use super::excerpt::Excerpt;
 use crate::InputError;
+use crate::error::shortened;
+use crate::spec::Source;
 
-/// The error as a block of text, at most `width` columns wide; colours only where the terminal shows them.
-pub fn report(error: &InputError, width: usize, color: bool) -> String {
+/// Of several errors so many are shown.
+const MOST: usize = 20;
+
+/// The error as a block of text; colours only where the terminal shows them. Others behind it, each as a block of its own.
+/// No line is broken to fit a width, which would fall into paths: a terminal does that without changing the text.
+pub fn report(error: &InputError, color: bool) -> String {
+    let shown = std::iter::once(error).chain(&error.others).take(MOST);
+    let mut text: String = shown.map(|error| one(error, color)).collect();
+    if let more @ 1.. = (1 + error.others.len()).saturating_sub(MOST) {
+        text += &format!("  and {more} more\n");
+    }
+    text
+}
+
+fn one(error: &InputError, color: bool) -> String {
     let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(width).with_links(false);
+    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
     let mut text = String::new();
     match handler.render_report(&mut text, &Report::new(error)) {
         Ok(()) => text,
@@ -21,19 +41,62 @@ pub fn report(error: &InputError, width: usize, color: bool) -> String {
 #[derive(Debug)]
 struct Report<'a> {
     error: &'a InputError,
-    source: Option<NamedSource<String>>,
+    source: Option<Text>,
+    labels: Vec<(Range<usize>, String)>,
 }
 
 impl<'a> Report<'a> {
     fn new(error: &'a InputError) -> Self {
-        let named = |source: &crate::spec::Source| NamedSource::new(&source.name, source.text.to_string());
-        Self { error, source: error.source_text.as_ref().map(named) }
+        let places: Vec<Range<usize>> = error.labels.iter().map(|(place, _)| place.clone()).collect();
+        let excerpt = error.source_text.as_ref().map(|source| (source, Excerpt::new(&source.text, &places)));
+        let place = |place: &Range<usize>| excerpt.as_ref().map_or(place.clone(), |(_, excerpt)| excerpt.place(place));
+        let labels = error.labels.iter().map(|(own, text)| (place(own), shortened(text).into_owned())).collect();
+        let source = excerpt.map(|(source, excerpt)| Text::new(source, excerpt));
+        Self { error, source, labels }
+    }
+}
+
+/// A source as miette sees it: each of its parts a file of its own.
+#[derive(Debug)]
+struct Text {
+    text: String,
+    /// With names.
+    parts: Vec<(Range<usize>, String)>,
+}
+
+impl Text {
+    fn new(source: &Source, excerpt: Excerpt) -> Self {
+        let part = |part: Range<usize>| (excerpt.place(&part), source.part_name(part.start).to_owned());
+        Self { parts: source.parts().map(part).collect(), text: excerpt.text }
+    }
+}
+
+impl SourceCode for Text {
+    fn read_span<'b>(
+        &'b self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
+        let (part, name) =
+            self.parts.iter().find(|(part, _)| span.offset() <= part.end).ok_or(MietteError::OutOfBounds)?;
+        let local = SourceSpan::from((span.offset().saturating_sub(part.start), span.len()));
+        let read = self.text[part.clone()].read_span(&local, lines_before, lines_after)?;
+        let global = SourceSpan::from((read.span().offset() + part.start, read.span().len()));
+        Ok(Box::new(MietteSpanContents::new_named(
+            name.clone(),
+            read.data(),
+            global,
+            read.line(),
+            read.column(),
+            read.line_count(),
+        )))
     }
 }
 
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.error.message)
+        f.write_str(&shortened(&self.error.message))
     }
 }
 
@@ -41,7 +104,7 @@ impl std::error::Error for Report<'_> {}
 
 impl Diagnostic for Report<'_> {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.error.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.error.help.as_ref().map(|help| Box::new(shortened(help)) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -52,6 +115,6 @@ impl Diagnostic for Report<'_> {
         let label = |(span, text): &(std::ops::Range<usize>, String)| {
             LabeledSpan::new(Some(text.clone()), span.start, span.end.saturating_sub(span.start))
         };
-        Some(Box::new(self.error.labels.iter().map(label)))
+        Some(Box::new(self.labels.iter().map(label)))
     }
 }

@@ -2,30 +2,30 @@
 
 use std::fmt::{self, Write};
 
-/// Columns of what the program prints.
-const WIDTH: usize = 100;
-
 /// Hands text on with long lines broken at spaces; what follows a break is indented deeper than its line.
 pub struct Wrapped<W> {
     out: W,
+    /// Columns.
+    width: usize,
     line: String,
 }
 
 impl<W: Write> Wrapped<W> {
-    pub fn new(out: W) -> Self {
-        Self { out, line: String::new() }
+    pub fn new(out: W, width: usize) -> Self {
+        Self { out, width, line: String::new() }
     }
 
     fn end_line(&mut self) -> fmt::Result {
         let line = std::mem::take(&mut self.line);
         let indent = line.len() - line.trim_start().len() + 4;
         let mut rest = line.as_str();
+        let width = self.width;
         let mut margin = 0;
-        while margin + rest.chars().count() > WIDTH {
-            let Some(at) = break_in(rest, WIDTH - margin) else { break };
+        while margin + rest.chars().count() > width {
+            let Some(at) = break_in(rest, width - margin) else { break };
             writeln!(self.out, "{:margin$}{}", "", rest[..at].trim_end())?;
             rest = rest[at..].trim_start();
-            margin = indent.min(WIDTH / 2);
+            margin = indent.min(width / 2);
         }
         writeln!(self.out, "{:margin$}{rest}", "")
     }
@@ -62,9 +62,11 @@ fn break_in(line: &str, room: usize) -> Option<usize> {
 mod tests {
     use super::*;
 
+    const WIDTH: usize = 100;
+
     fn wrapped(text: &str) -> String {
         let mut out = String::new();
-        Wrapped::new(&mut out).write_str(text).expect("a string takes all");
+        Wrapped::new(&mut out, WIDTH).write_str(text).expect("a string takes all");
         out
     }
 

@@ -1,5 +1,7 @@
 //! The user's own filters on the CPU: the work of `shaders/gpu/custom.wgsl`.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::Vec3;
 
 use super::convert::{g2, g3, v3, v4};
@@ -7,17 +9,19 @@ use crate::appearance as wgsl;
 use crate::custom::SurfaceValue;
 use crate::plan::Plan;
 
-/// Where a filter acts: around the eye, along the world's axes.
+/// Where a filter acts: around the view's origin, along the world's axes.
 pub struct Site<'a> {
     pub plan: &'a Plan,
     pub position: Vec3,
+    /// Loop iterations that the filters of a picture have taken; see [`crate::limits::FILTER_ITERATIONS`].
+    pub spent: &'a AtomicU64,
 }
 
 impl Site<'_> {
     fn seen(&self, s: &wgsl::Surface) -> SurfaceValue {
         let view = &self.plan.view;
         SurfaceValue {
-            position: (self.position + view.eye.as_vec3()).to_array(),
+            position: (self.position.as_dvec3() + view.origin()).as_vec3().to_array(),
             normal: g3(s.normal).to_array(),
             view: g3(s.view).to_array(),
             base_color: g3(wgsl::base_color(*s)).to_array(),
@@ -28,13 +32,15 @@ impl Site<'_> {
             opacity: wgsl::surface_opacity(*s),
             unlit: s.unlit,
             pixel: g2(s.pixel).to_array(),
-            depth: self.position.dot(view.forward.as_vec3()),
+            depth: view.from_eye(self.position.as_dvec3().dot(view.forward)) as f32,
         }
     }
 
     pub fn filtered(&self, op: &wgsl::Op, before: wgsl::Surface) -> wgsl::Surface {
         let seen = self.seen(&before);
-        let made = self.plan.customs[op.texture as usize].surface(&seen, self.words(op));
+        let mut spent = 0;
+        let made = self.plan.customs[op.texture as usize].surface_spending(&seen, self.words(op), &mut spent);
+        self.spend(spent);
         let mut s = before;
         s.normal = v3(Vec3::from_array(made.normal).normalize_or(g3(before.normal)));
         if made.base_color != seen.base_color {
@@ -53,7 +59,16 @@ impl Site<'_> {
 
     pub fn colored(&self, op: &wgsl::Op, color: Vec3, s: &wgsl::Surface) -> Vec3 {
         let custom = &self.plan.customs[op.texture as usize];
-        Vec3::from_array(custom.color(color.to_array(), &self.seen(s), self.words(op)))
+        let mut spent = 0;
+        let made = custom.color_spending(color.to_array(), &self.seen(s), self.words(op), &mut spent);
+        self.spend(spent);
+        Vec3::from_array(made)
+    }
+
+    fn spend(&self, spent: u32) {
+        if spent > 0 {
+            self.spent.fetch_add(u64::from(spent), Ordering::Relaxed);
+        }
     }
 
     /// The values of the filter's parameters, and of those behind it.

@@ -4,7 +4,7 @@ use glam::DAffine3;
 
 use super::cut_data::CutWords;
 use super::draws::shown_from_local;
-use super::records::{ITEM_ALTERNATE, ITEM_OPEN, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
+use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
 use super::upload::SceneData;
 use crate::plan::{Instance, Plan, Step};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene, scene_factor};
@@ -23,18 +23,25 @@ pub fn item_stride(words: u32, channels: u32) -> u64 {
 }
 
 impl ItemData {
-    /// `words`: of a set of lenses; `cuts`: of each instance.
-    pub fn new(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: u32, cuts: &[CutWords]) -> Self {
+    /// `words`: of a set of lenses; `cuts` and `planes`: of each instance.
+    pub fn new(
+        scene: &Scene,
+        plan: &Plan,
+        uploaded: &SceneData,
+        words: u32,
+        cuts: &[CutWords],
+        planes: &[u32],
+    ) -> Self {
         let mut data = Self::default();
-        for (instance, cut) in plan.instances.iter().zip(cuts) {
+        for ((instance, cut), planes) in plan.instances.iter().zip(cuts).zip(planes) {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
-            let CutWords { body, caps, is_open } = *cut;
-            let mut record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
-            record.flags |= if is_open { ITEM_OPEN } else { 0 };
+            let CutWords { body, caps, group, roles, lids } = *cut;
+            let plain = record(scene, plan, instance, uploaded);
+            let cut = ItemRecord { first_step, body, caps, group, roles, lids, planes: *planes, ..plain };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
-            data.items.extend_from_slice(bytemuck::bytes_of(&record));
+            data.items.extend_from_slice(bytemuck::bytes_of(&cut));
             let masks = [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
             for mask in masks {
                 words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
@@ -51,8 +58,8 @@ impl ItemData {
 }
 
 fn step_record(plan: &Plan, step: &Step) -> StepRecord {
-    let eye = DAffine3::from_translation(plan.view.eye);
-    let [row_x, row_y, row_z] = rows(&(eye.inverse() * step.source_from_shown * eye));
+    let origin = DAffine3::from_translation(plan.view.origin());
+    let [row_x, row_y, row_z] = rows(&(origin.inverse() * step.source_from_shown * origin));
     StepRecord { row_x, row_y, row_z, rank: step.rank as u32, pad: [0; 3] }
 }
 
@@ -60,7 +67,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
     let item = &plan.items[instance.item];
     let (range, _) = uploaded.primitive(item);
     let mut around = shown_from_local(scene, item, instance);
-    around.translation -= plan.view.eye;
+    around.translation += around.matrix3 * range.middle.as_dvec3() - plan.view.origin();
     let [row_x, row_y, row_z] = rows(&around);
     ItemRecord {
         row_x,
@@ -79,7 +86,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         uv0: range.uv[0],
         uv1: range.uv[1],
         slots: texture_slots(&scene.materials[item.material]),
-        center: (item.center - plan.view.eye).as_vec3().to_array(),
+        center: (item.center - plan.view.origin()).as_vec3().to_array(),
         first_step: 0,
         step_count: instance.steps.len() as u32,
         body: NONE,
@@ -87,6 +94,10 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         node: item.node as u32,
         ratio: item.ratio,
         spread: instance.spread as f32,
+        planes: NONE,
+        group: NONE,
+        roles: NONE,
+        lids: NONE,
     }
 }
 

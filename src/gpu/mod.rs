@@ -3,6 +3,7 @@
 //!
 //! [`Renderer`] borrows device, queue, encoder and target and never submits; [`Headless`] owns a device.
 
+mod alloc;
 mod aov;
 mod atlas;
 mod bindings;
@@ -23,6 +24,7 @@ mod needs;
 mod part_data;
 mod pipelines;
 mod plan_group;
+mod planes;
 mod program;
 mod provoking;
 mod prune;

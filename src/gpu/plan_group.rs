@@ -1,13 +1,11 @@
 //! The plan on the device: the buffers of group 1, which live for one frame.
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::item_data::ItemData;
 use super::lens_data::LensData;
 use super::records::FrameRecord;
 use super::upload::check_size;
-use super::{Error, bindings};
-use crate::plan::{LightRecord, Plan};
+use super::{Error, alloc, bindings};
+use crate::plan::Plan;
 
 /// What goes into the buffers besides the plan itself.
 pub struct PlanContents<'a> {
@@ -35,7 +33,6 @@ impl PlanContents<'_> {
         allowed: u64,
     ) -> Result<PlanGroup, Error> {
         let Self { plan, items, lenses, .. } = self;
-        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let buffer = |label, bytes| plan_buffer(device, allowed, label, bytes, wgpu::BufferUsages::STORAGE);
         let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::STORAGE)?;
         let as_attribute = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX;
@@ -47,7 +44,7 @@ impl PlanContents<'_> {
             buffer("the plan's planes and corners of lenses", bytemuck::cast_slice(&lenses.parts.vectors))?,
             buffer("the plan's programs and meshes of lenses", bytemuck::cast_slice(&lenses.parts.words))?,
             buffer("the plan's filters", bytemuck::cast_slice(&plan.ops))?,
-            buffer("the plan's lights", bytemuck::cast_slice(&lights))?,
+            buffer("the plan's lights", bytemuck::cast_slice(&plan.lighting.lights))?,
             buffer("the window's tiles", bytemuck::cast_slice(self.tiles))?,
             buffer("the plan's parameters of filters", bytemuck::cast_slice(&plan.custom_words))?,
         ];
@@ -79,5 +76,5 @@ fn plan_buffer(
     } else {
         bytes
     };
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
+    alloc::filled_buffer(device, label, contents, usage)
 }

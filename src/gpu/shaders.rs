@@ -53,7 +53,7 @@ impl Module {
 }
 
 /// Where rays cross lens volumes.
-const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
+const VOLUMES: &[&str] = &[PLANE, PART, ROLES, MESH, PROGRAM];
 /// Who acts on a fragment.
 const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, GEOMETRY, STEPS, MOVED, WALK];
 /// What a fragment looks like.
@@ -64,6 +64,7 @@ const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
 const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
 const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
 const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
+const ROLES: &str = include_str!("../../shaders/gpu/roles.wgsl");
 const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
 const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
 const ASKED: &str = include_str!("../../shaders/gpu/asked.wgsl");
@@ -105,7 +106,7 @@ pub fn source(module: Module, needs: &Needs, custom: &str) -> String {
         text += custom;
     }
     if module == Module::Visibility {
-        text += if needs.versions { KEPT_VERSIONS } else { KEPT };
+        text += if needs.versions || needs.large { KEPT_VERSIONS } else { KEPT };
     }
     for part in module.parts().iter().copied().flatten() {
         text += part;

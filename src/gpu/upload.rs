@@ -2,23 +2,25 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use glam::Vec3;
 
 use super::atlas::Atlas;
 use super::clusters::{Cluster, Clustered};
 use super::provoking::Provoking;
 use super::records::NONE;
-use super::{Error, bindings};
+use super::{Error, alloc, bindings};
 use crate::plan::Item;
-use crate::scene::{Primitive, Scene};
+use crate::scene::{Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Range {
     pub first_index: u32,
     /// Where the numbers start that its triangles have in the primitive.
     pub first_number: u32,
     pub base_vertex: u32,
+    /// Its positions are relative to this: a mesh far from its own origin keeps its digits.
+    pub middle: Vec3,
     /// Floats, or [`NONE`].
     pub normals: u32,
     pub tangents: u32,
@@ -26,6 +28,14 @@ pub struct Range {
     pub uv: [u32; 2],
     /// Of other numbers at vertices, by name.
     pub values: BTreeMap<String, u32>,
+}
+
+/// Of the bounds of points; none where they have no middle that is a number.
+fn middle(points: &[Vec3]) -> Vec3 {
+    let ends = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(ends, |(low, high), p| (low.min(*p), high.max(*p)));
+    let middle = 0.5 * low + 0.5 * high;
+    if middle.is_finite() { middle } else { Vec3::ZERO }
 }
 
 /// Model, mesh, primitive, and the bits of the ratio of its version.
@@ -37,7 +47,11 @@ pub struct SceneData {
     pub positions: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub bind_group: wgpu::BindGroup,
+    /// Which scene it is.
+    pub id: SceneId,
     primitives: HashMap<Place, (Range, Vec<Cluster>)>,
+    /// Of each triangle in the order in which they are drawn, its number in its primitive.
+    numbers: Vec<u32>,
 }
 
 /// The shared buffers while they are filled.
@@ -60,7 +74,10 @@ impl Lists {
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
+        let middle = middle(&primitive.positions);
+        let around: Vec<Vec3> = primitive.positions.iter().map(|p| *p - middle).collect();
         let range = Range {
+            middle,
             first_index: self.indices.len() as u32,
             first_number: self.numbers.len() as u32,
             base_vertex: (self.positions.len() / 3) as u32,
@@ -70,7 +87,7 @@ impl Lists {
             uv: [0, 1].map(|set| self.attribute(&order, primitive.uv[set].as_deref())),
             values: self.values(&order, primitive, wanted),
         };
-        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
+        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&around)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
         self.numbers.extend(numbers);
         (range, clusters)
@@ -139,7 +156,16 @@ impl SceneData {
                 numbers.as_entire_binding(),
             ],
         );
-        Ok(Self { positions, indices, bind_group, primitives })
+        Ok(Self { positions, indices, bind_group, id: scene.id, primitives, numbers: lists.numbers })
+    }
+
+    /// Of each triangle of an item's version of its primitive, its place in the order in which they are drawn.
+    pub fn drawn_places(&self, item: &Item) -> Vec<u32> {
+        let first = self.primitive(item).0.first_number as usize;
+        let mut places = vec![0; item.triangles as usize];
+        let numbers = &self.numbers[first..first + places.len()];
+        (0u32..).zip(numbers).for_each(|(place, number)| places[*number as usize] = place);
+        places
     }
 
     /// Where an item's version of its primitive lies, and its clusters.
@@ -159,7 +185,8 @@ fn storage_buffer(
     bytes: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
-    check_size(largest_buffer(device), &format!("the scene's {label}"), bytes.len() as u64)?;
+    let what = format!("the scene's {label}");
+    check_size(largest_buffer(device), &what, bytes.len() as u64)?;
     let padded;
     let contents = if bytes.len() < SMALLEST {
         padded = [bytes, &vec![0; SMALLEST - bytes.len()]].concat();
@@ -167,7 +194,7 @@ fn storage_buffer(
     } else {
         bytes
     };
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
+    alloc::filled_buffer(device, &what, contents, usage)
 }
 
 /// Fails with numbers when a buffer is larger than allowed.

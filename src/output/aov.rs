@@ -1,14 +1,13 @@
 //! AOV files: 16-bit gray PNG for numbers, EXR for floats.
 
 use std::io::Cursor;
-use std::path::Path;
 
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes, LineOrder, WritableImage,
 };
 
-use super::png::write_gray16;
-use super::{RegionMap, write_whole};
+use super::RegionMap;
+use super::png::gray16;
 use crate::InputError;
 use crate::frame::Aovs;
 use crate::plan::Plan;
@@ -35,42 +34,56 @@ impl Aov {
     pub fn name(self) -> &'static str {
         Self::ALL.into_iter().find(|(_, aov)| *aov == self).map_or("", |(name, _)| name)
     }
+
+    /// Of the files that hold it.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Aov::Region | Aov::Node | Aov::Layers => "png",
+            Aov::Depth | Aov::Normal => "exr",
+        }
+    }
 }
 
-/// Writes one map; for regions its table, too, with the extension `.json`.
-pub fn write_aov(path: &Path, aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<(), InputError> {
+/// A map as a file.
+pub struct EncodedAov {
+    pub map: Vec<u8>,
+    /// Of regions: the table that says what the numbers mean, to stand beside the map with the extension `.json`.
+    pub table: Option<String>,
+}
+
+/// The bytes of one map.
+pub fn encode_aov(aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<EncodedAov, InputError> {
     let size = plan.view.size;
-    match aov {
+    let mut table = None;
+    let map = match aov {
         Aov::Node => {
             let narrow: Result<Vec<u16>, _> = aovs.nodes.iter().map(|node| u16::try_from(*node)).collect();
             let nodes = narrow.map_err(|_| {
                 InputError::new("the picture shows a node of number 65535 or more, and a node map has 16 bits a pixel")
                     .help("leave out `--aov node`")
             })?;
-            write_gray16(path, &nodes, size)
+            gray16(&nodes, size)
         }
-        Aov::Layers => write_gray16(path, &aovs.layers, size),
+        Aov::Layers => gray16(&aovs.layers, size),
         Aov::Region => {
-            let map = RegionMap::new(plan, &plan.regions(), aovs)?;
-            write_gray16(path, &map.ids, size)?;
-            let table = serde_json::to_string_pretty(&map.json()).unwrap_or_default();
-            write_whole(&path.with_extension("json"), (table + "\n").as_bytes())
+            let map = RegionMap::new(plan, &plan.regions().regions, aovs)?;
+            table = Some(serde_json::to_string_pretty(&map.json()).unwrap_or_default() + "\n");
+            gray16(&map.ids, size)
         }
-        Aov::Depth => write_exr(path, size, &[("Z", aovs.depth.clone())]),
+        Aov::Depth => exr(size, &[("Z", aovs.depth.iter().map(|depth| *depth as f32).collect())]),
         Aov::Normal => {
             let axis = |i: usize| aovs.normals.iter().map(|n| n[i]).collect();
-            write_exr(path, size, &[("R", axis(0)), ("G", axis(1)), ("B", axis(2))])
+            exr(size, &[("R", axis(0)), ("G", axis(1)), ("B", axis(2))])
         }
-    }
+    };
+    Ok(EncodedAov { map: map?, table })
 }
 
 /// Tiles in rows from the top: without an order each stands in the file when its thread is done, another way every time.
 const ENCODING: Encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
 
-fn write_exr(path: &Path, size: [u32; 2], channels: &[(&str, Vec<f32>)]) -> Result<(), InputError> {
-    let bytes =
-        exr_bytes(size, channels).map_err(|e| InputError::new(format!("{} cannot be encoded: {e}", path.display())))?;
-    write_whole(path, &bytes)
+fn exr(size: [u32; 2], channels: &[(&str, Vec<f32>)]) -> Result<Vec<u8>, InputError> {
+    exr_bytes(size, channels).map_err(|e| InputError::new(format!("a map cannot be encoded as EXR: {e}")))
 }
 
 fn exr_bytes(size: [u32; 2], channels: &[(&str, Vec<f32>)]) -> exr::error::Result<Vec<u8>> {

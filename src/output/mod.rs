@@ -5,7 +5,8 @@ mod file;
 mod png;
 mod regions;
 
-pub use aov::{Aov, write_aov};
-pub use file::write_whole;
-pub use png::write_picture;
+pub use aov::{Aov, EncodedAov, encode_aov};
+pub(crate) use file::folder_of;
+pub use file::{Place, write_whole};
+pub use png::{encode_picture, write_picture};
 pub use regions::{Actor, Entry, FoundRegion, RegionMap, numbered, stack};

@@ -11,7 +11,7 @@ use super::items::largest_scale;
 use super::lenses::Placed;
 use super::{Item, Lens, LensSet};
 use crate::InputError;
-use crate::scene::{Aabb, Scene, Subject};
+use crate::scene::{Aabb, Scene, Selections, Subject};
 use crate::spec::{At, By, Filter, Pattern};
 
 /// The most ways in which one item may be shown.
@@ -105,15 +105,21 @@ pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<
     let mut instances: Vec<Instance> =
         items.iter().enumerate().map(|(index, item)| Instance::in_place(index, item, item.bounds)).collect();
     let movers: LensSet = (0..lenses.len()).filter(|rank| lenses[*rank].moves).collect();
+    let reaches: Vec<Aabb> = lenses
+        .iter()
+        .map(|lens| match lens.by {
+            By::Pixel if lens.moves => lens.volume.bounds(),
+            _ => Aabb::EVERYWHERE,
+        })
+        .collect();
+    let known = Selections::default();
     for (index, item) in items.iter().enumerate() {
+        let subject = item.subject(scene, &known);
         let mut ways = vec![Instance::in_place(index, item, moved_bounds(item, scene))];
         for rank in item.moved_by(lenses).iter() {
-            let reach = match lenses[rank].by {
-                By::Pixel => lenses[rank].volume.bounds(),
-                By::Object => Aabb::EVERYWHERE,
-            };
-            let movement = movement(&lenses[rank], item, scene);
-            let above: Vec<Instance> = ways.iter().filter_map(|way| way.through(rank, &movement, &reach)).collect();
+            let movement = movement(&lenses[rank], item, &subject);
+            let above = ways.iter().filter_map(|way| way.through(rank, &movement, &reaches[rank]));
+            let above: Vec<Instance> = above.collect();
             ways.extend(above);
             if ways.len() > MOST_WAYS || instances.len() + ways.len() > MOST_INSTANCES {
                 return Err(too_many(lenses, movers, ways.len() > MOST_WAYS));
@@ -140,10 +146,9 @@ fn too_many(lenses: &[Lens], movers: LensSet, ways: bool) -> InputError {
 }
 
 /// How a lens moves an item: from world k-1 to world k. What the lens shows is moved by the filters after `show`.
-fn movement(lens: &Lens, item: &Item, scene: &Scene) -> DAffine3 {
+fn movement<'a>(lens: &'a Lens, item: &Item, subject: &Subject<'a>) -> DAffine3 {
     let filters = moving_filters(&lens.filters);
-    let subject = item.subject(scene);
-    filters.iter().fold(DAffine3::IDENTITY, |before, filter| movement_of(filter, lens, item, &subject) * before)
+    filters.iter().fold(DAffine3::IDENTITY, |before, filter| movement_of(filter, lens, item, subject) * before)
 }
 
 fn moving_filters(filters: &[Filter]) -> &[Filter] {
@@ -152,7 +157,7 @@ fn moving_filters(filters: &[Filter]) -> &[Filter] {
 }
 
 /// Whether a lens moves an item where it acts on it.
-pub(super) fn moves(filters: &[Filter], subject: &Subject) -> bool {
+pub(super) fn moves<'a>(filters: &'a [Filter], subject: &Subject<'a>) -> bool {
     moving_filters(filters).iter().any(|filter| match filter {
         Filter::Magnify { factor, .. } => *factor != 1.0,
         Filter::Displace { nodes, .. } => displaces(nodes, subject),
@@ -160,11 +165,11 @@ pub(super) fn moves(filters: &[Filter], subject: &Subject) -> bool {
     })
 }
 
-fn displaces(nodes: &[At<Pattern>], subject: &Subject) -> bool {
+fn displaces<'a>(nodes: &'a [At<Pattern>], subject: &Subject<'a>) -> bool {
     nodes.is_empty() || subject.is_any(nodes, &[])
 }
 
-fn movement_of(filter: &Filter, lens: &Lens, item: &Item, subject: &Subject) -> DAffine3 {
+fn movement_of<'a>(filter: &'a Filter, lens: &Lens, item: &Item, subject: &Subject<'a>) -> DAffine3 {
     match filter {
         Filter::Magnify { factor, center } => {
             let center = center.map_or(lens.volume.center, |c| lens.world_from_shape.transform_point3(c.into()));

@@ -3,6 +3,7 @@
 //! Order, contents, items and filters are decided here; a backend never sees the spec.
 
 mod account;
+mod anchor;
 mod camera;
 mod caps;
 mod decide;
@@ -12,6 +13,7 @@ mod lenses;
 mod light;
 mod op;
 mod order;
+mod own;
 mod reasons;
 mod regions;
 mod rules;
@@ -24,7 +26,7 @@ use std::sync::Arc;
 use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::Custom;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneId};
 use crate::spec::{Backfaces, Spec, ToneMapping};
 use crate::view::View;
 
@@ -33,13 +35,14 @@ pub use account::{Account, Undecided};
 pub use caps::{Body, Closing, Member};
 pub use decide::{Reason, commute};
 pub use instances::{Instance, Step};
-pub use items::{Content, Item};
+pub use items::{Content, Item, Selection};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
-pub use op::{Op, filter_name};
+pub use op::{LegendEntry, LegendLook, Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
+pub use own::OwnSurface;
 pub use reasons::Reasons;
-pub use regions::Region;
+pub use regions::{Ended, Region, RegionSearch};
 pub use rules::{Rule, Test};
 pub use screen::ScreenStep;
 pub use walk::{Verdict, survivors};
@@ -47,6 +50,8 @@ pub use walk::{Verdict, survivors};
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.
 #[derive(Debug, Clone)]
 pub struct Plan {
+    /// The scene that it was made for.
+    pub scene: SceneId,
     pub view: View,
     /// Samples a pixel, a square number.
     pub samples: u32,
@@ -73,6 +78,10 @@ pub struct Plan {
     pub customs: Vec<Arc<Custom>>,
     /// The values of their parameters, one filter's after the other's.
     pub custom_words: Vec<u32>,
+    /// What false colours and contour lines stand for, in the order of their filters.
+    pub legend: Vec<LegendEntry>,
+    /// Whether the picture tells so.
+    pub has_legend: bool,
     /// What can be drawn: the scene, then each content that some `show` names.
     pub contents: Vec<Content>,
     /// What is drawn, in the order that decides ties: by content, node, primitive.
@@ -94,13 +103,14 @@ pub struct Plan {
 /// Maps the bounds of the scene to 0..1: `(p - origin) * scale`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureSpace {
-    pub origin: glam::Vec3,
+    pub origin: glam::DVec3,
     pub scale: f32,
 }
 
 impl Plan {
     /// Decides a spec over its opened scene. All that can be wrong with the two together is found here.
     pub fn new(spec: &Spec, scene: &Scene) -> Result<Self, InputError> {
+        scene.bound_comparisons(spec)?;
         let mut view = camera::place(spec, scene)?;
         let graph = PriorityGraph::new(spec)?;
         let volumes = lenses::volumes(spec, scene, &view)?;
@@ -110,13 +120,16 @@ impl Plan {
         let mut ops = op::Ops::new(spec, scene, &view);
         let lenses = lenses::rank_lenses(spec, &graph, &order, &volumes, &mut ops)?;
         let rules = rules::collect(spec, &lenses, &mut ops)?;
-        let op::Ops { list: ops, channels, customs, custom_words, .. } = ops;
+        let op::Ops { list: ops, channels, customs, custom_words, legend, .. } = ops;
         let (contents, mut items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let mut warnings = warnings::collect(spec, scene);
+        warnings.extend(graph.idle_cycles(spec));
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene)?;
+        warnings.extend(warnings::of_reach(spec, &lenses, &items, &instances));
         Ok(Self {
+            scene: scene.id,
             samples: spec.image.samples,
             tone_mapping: match spec.image.tone_mapping {
                 ToneMapping::None => wgsl::TONE_NONE.0,
@@ -136,6 +149,8 @@ impl Plan {
             channels,
             customs,
             custom_words,
+            legend,
+            has_legend: spec.image.legend,
             contents,
             items,
             instances,
@@ -156,9 +171,9 @@ impl Plan {
 fn texture_space(scene: &Scene) -> TextureSpace {
     let bounds = scene.models[0].bounds();
     if bounds.is_empty() {
-        return TextureSpace { origin: glam::Vec3::ZERO, scale: 1.0 };
+        return TextureSpace { origin: glam::DVec3::ZERO, scale: 1.0 };
     }
     let side = bounds.size().max_element().max(f64::MIN_POSITIVE);
     let origin = bounds.center() - glam::DVec3::splat(0.5 * side);
-    TextureSpace { origin: origin.as_vec3(), scale: (1.0 / side) as f32 }
+    TextureSpace { origin, scale: (1.0 / side) as f32 }
 }

@@ -38,6 +38,31 @@ pub(super) struct Ops<'a> {
     pub customs: Vec<Arc<Custom>>,
     /// The values of their parameters: [`super::Plan::custom_words`].
     pub custom_words: Vec<u32>,
+    pub legend: Vec<LegendEntry>,
+}
+
+/// What colours or lines of a filter stand for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LegendEntry {
+    /// Whose: into [`super::Plan::ops`].
+    pub op: usize,
+    pub quantity: Quantity,
+    pub look: LegendLook,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum LegendLook {
+    /// Values at the ends of the colours, the first above the second where colours run backwards.
+    Colors {
+        colormap: String,
+        range: [f64; 2],
+    },
+    Lines {
+        spacing: f64,
+        color: Color,
+    },
+    /// The parts of a direction as red, green and blue.
+    Axes,
 }
 
 const NONE: [f32; 4] = [0.0; 4];
@@ -118,8 +143,8 @@ const CUSTOM_OPACITY: u32 = 4;
 
 impl<'a> Ops<'a> {
     pub fn new(spec: &'a Spec, scene: &'a Scene, view: &'a View) -> Self {
-        let (list, channels, customs, custom_words) = Default::default();
-        Self { spec, scene, view, list, channels, customs, custom_words }
+        let (list, channels, customs, custom_words, legend) = Default::default();
+        Self { spec, scene, view, list, channels, customs, custom_words, legend }
     }
 
     /// Appends the records of a list's appearance filters; their places.
@@ -153,10 +178,18 @@ impl<'a> Ops<'a> {
             Filter::Invert { amount } => Op::new(wgsl::OP_INVERT, NONE, one(*amount)),
             Filter::Brightness { amount } => Op::new(wgsl::OP_BRIGHTNESS, NONE, one(*amount)),
             Filter::Unlit { color } => Op::new(wgsl::OP_UNLIT, NONE, NONE).colored(*color),
-            Filter::Normals => Op::new(wgsl::OP_NORMALS, NONE, NONE),
+            Filter::Normals => {
+                self.explain(&Quantity::Slope, LegendLook::Axes);
+                Op::new(wgsl::OP_NORMALS, NONE, NONE)
+            }
             Filter::FalseColor { quantity, colormap, range } => self.false_color(quantity, colormap, *range)?,
             Filter::Contours { quantity, spacing, width, color } => {
-                self.contours(quantity, *spacing, *width)?.with_color(*color)
+                let spacing = spacing.map_or_else(|| self.round_spacing(quantity), Ok)?;
+                self.explain(quantity, LegendLook::Lines { spacing, color: *color });
+                let from = self.counted_from(quantity);
+                let beyond = from - (from / spacing).round() * spacing;
+                let lines = Op::new(wgsl::OP_CONTOURS, NONE, [beyond as f32, 0.0, spacing as f32, *width]);
+                self.reading(lines, quantity).with_color(*color)
             }
             Filter::Toon { levels } => Op::new(wgsl::OP_TOON, NONE, one(*levels as f32)),
             Filter::Hatch { spacing, width, color } => {
@@ -221,16 +254,35 @@ impl<'a> Ops<'a> {
         };
         let [low, high] = range.unwrap_or(self.fitted(quantity)?);
         // A range without a length shows one colour, the low one.
-        let scale = if high > low { 1.0 / (high - low) } else { 0.0 };
+        let scale = if high == low { 0.0 } else { 1.0 / (high - low) };
+        self.explain(quantity, LegendLook::Colors { colormap: colormap.to_owned(), range: [low, high] });
         let texture = *prepared(self.scene.color_maps.get(colormap), || format!("the colour map `{colormap}`"))?;
-        let op = self.reading(Op::new(kind, NONE, [low as f32, scale as f32, 0.0, 0.0]), quantity);
+        let op = self.reading(
+            Op::new(kind, NONE, [(low - self.counted_from(quantity)) as f32, scale as f32, 0.0, 0.0]),
+            quantity,
+        );
         Ok(Op { texture, ..op.flagged(wgsl::MAPPED.0, true) })
     }
 
-    fn contours(&mut self, quantity: &Quantity, spacing: Option<f64>, width: f32) -> Result<Op, InputError> {
+    /// About a tenth of what there is.
+    fn round_spacing(&self, quantity: &Quantity) -> Result<f64, InputError> {
         let [low, high] = self.fitted(quantity)?;
-        let spacing = spacing.unwrap_or_else(|| round_spacing((high - low) / 10.0));
-        Ok(self.reading(Op::new(wgsl::OP_CONTOURS, NONE, [0.0, 0.0, spacing as f32, width]), quantity))
+        Ok(round_spacing((high - low) / 10.0))
+    }
+
+    /// For the legend: of the filter whose record comes next.
+    fn explain(&mut self, quantity: &Quantity, look: LegendLook) {
+        self.legend.push(LegendEntry { op: self.list.len(), quantity: quantity.clone(), look });
+    }
+
+    /// What shaders count a quantity from: positions are relative to the view's origin there, so that they have their
+    /// digits far from the scene's.
+    fn counted_from(&self, quantity: &Quantity) -> f64 {
+        match quantity {
+            Quantity::Height => self.view.origin().y,
+            Quantity::Depth => self.view.from_eye(0.0),
+            Quantity::Slope | Quantity::Curvature | Quantity::Attribute(_) => 0.0,
+        }
     }
 
     /// The same, told what it reads.
@@ -281,12 +333,12 @@ fn named(what: &str, path: &Path) -> String {
     format!("{what} {}", path.display())
 }
 
-/// The depths of bounds between near and far.
+/// The depths from the eye of bounds between near and far.
 fn depths(view: &View, bounds: &Aabb) -> [f64; 2] {
     if bounds.is_empty() {
-        return [view.near, view.far];
+        return [view.near, view.far].map(|depth| view.from_eye(depth));
     }
-    let corners = bounds.corners().map(|p| view.depth(p).clamp(view.near, view.far));
+    let corners = bounds.corners().map(|p| view.from_eye(view.depth(p).clamp(view.near, view.far)));
     [corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max)]
 }
 
@@ -376,6 +428,7 @@ mod tests {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         };
         let mesh = Mesh { name: "triangle".into(), primitives: vec![primitive] };
         let materials = vec![Material::default()];

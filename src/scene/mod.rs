@@ -4,7 +4,9 @@
 
 mod animation;
 mod bounds;
+mod budget;
 mod closed;
+mod files;
 mod lens_meshes;
 mod load;
 mod materials;
@@ -18,12 +20,15 @@ mod vertex_values;
 
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
-pub use closed::{Closure, ClosureCache};
+pub(crate) use budget::TO_TAKE_LESS;
+pub use budget::{Budget, OpenOptions};
+pub use closed::{Closure, ClosureCache, Enclosing};
+pub(crate) use files::files;
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
-pub(crate) use names::Subject;
-pub use open::Scene;
+pub(crate) use names::{Selections, Subject, nearest};
+pub use open::{Scene, SceneId};
 pub use pose::Transform;
 pub use simplified::Simplified;
 pub use textures::{MipImage, MipLevel, TextureRecord, TextureSet, decode_table};

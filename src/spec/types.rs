@@ -15,14 +15,73 @@ use super::{Color, Pattern, Rotation, Shape};
 pub struct Source {
     /// How messages name the file.
     pub name: String,
+    /// The file, then on lines of their own what was set beside it.
     pub text: Arc<str>,
+    /// Where its lines end.
+    ends: Arc<[usize]>,
+    /// Where each setting begins.
+    settings: Arc<[usize]>,
 }
 
+/// How messages name a setting.
+const SETTING: &str = "--set";
+
 impl Source {
-    /// 1-based line of a byte offset.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self::with_settings(name, text, &[])
+    }
+
+    /// A file with settings (`KEY=VALUE`) that stand behind it.
+    pub fn with_settings(name: impl Into<String>, text: impl Into<String>, settings: &[String]) -> Self {
+        let mut all = text.into();
+        let mut starts = Vec::new();
+        for setting in settings {
+            all.push('\n');
+            starts.push(all.len());
+            all += setting;
+        }
+        let ends = all.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+        Self { name: name.into(), text: all.into(), ends, settings: starts.into() }
+    }
+
+    /// The parts of the text: the file, then each setting.
+    pub fn parts(&self) -> impl Iterator<Item = Range<usize>> {
+        let starts = std::iter::once(0).chain(self.settings.iter().copied());
+        let ends = self.settings.iter().map(|start| start - 1).chain([self.text.len()]);
+        starts.zip(ends).map(|(start, end)| start..end)
+    }
+
+    /// The part that an offset lies in.
+    pub fn part(&self, offset: usize) -> Range<usize> {
+        self.parts().find(|part| offset <= part.end).unwrap_or(0..self.text.len())
+    }
+
+    /// How messages name the part that an offset lies in.
+    pub fn part_name(&self, offset: usize) -> &str {
+        if self.part(offset).start == 0 { &self.name } else { SETTING }
+    }
+
+    /// 1-based line of a byte offset, in its part.
     pub fn line(&self, offset: usize) -> usize {
-        let end = offset.min(self.text.len());
-        1 + self.text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
+        let before = |place: usize| self.ends.partition_point(|end| *end < place);
+        1 + before(offset) - before(self.part(offset).start)
+    }
+
+    /// The same as words: "line 3", or the setting.
+    pub fn spot(&self, offset: usize) -> String {
+        match self.part(offset).start {
+            0 => format!("line {}", self.line(offset)),
+            _ => self.place(offset),
+        }
+    }
+
+    /// `file:line` of a byte offset; a setting is short enough to be told whole.
+    pub fn place(&self, offset: usize) -> String {
+        let part = self.part(offset);
+        match part.start {
+            0 => format!("{}:{}", self.name, self.line(offset)),
+            _ => format!("{SETTING} {}", &self.text[part]),
+        }
     }
 }
 
@@ -115,6 +174,8 @@ pub struct ImageSpec {
     /// `None` is transparent.
     pub background: Option<Color>,
     pub tone_mapping: ToneMapping,
+    /// What false colours stand for is drawn over the picture.
+    pub legend: bool,
 }
 
 impl ImageSpec {
@@ -129,6 +190,7 @@ impl Default for ImageSpec {
             samples: 4,
             background: Some(Color::rgb(0x1e, 0x22, 0x27)),
             tone_mapping: ToneMapping::None,
+            legend: false,
         }
     }
 }
@@ -181,7 +243,7 @@ pub enum ToneMapping {
 }
 
 /// Name patterns for nodes and materials.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matches {
     pub nodes: Vec<At<Pattern>>,
     pub materials: Vec<At<Pattern>>,
@@ -410,8 +472,13 @@ pub enum Cap {
 /// What `show` puts in place of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShowWhat {
-    /// A name under `[scene.alternates]`.
-    Alternate(At<String>),
+    Alternate {
+        /// Under `[scene.alternates]`.
+        name: At<String>,
+        /// What of it; empty: all.
+        only: Matches,
+    },
+    /// Of the scene.
     Nodes(Vec<At<Pattern>>),
 }
 

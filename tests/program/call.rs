@@ -8,7 +8,6 @@ use std::process::Command;
 pub struct Call {
     pub code: Option<i32>,
     pub out: String,
-    /// Without the line breaks that fit a report to its width.
     pub err: String,
 }
 
@@ -38,8 +37,7 @@ pub fn call_with(arguments: &[&str], change: impl FnOnce(&mut Command)) -> Call 
     change(&mut command);
     let output = command.output().expect("the program starts");
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("the program writes UTF-8");
-    let err = text(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
-    Call { code: output.status.code(), out: text(&output.stdout), err }
+    Call { code: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
 }
 
 /// A file of the project.

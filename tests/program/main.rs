@@ -3,8 +3,13 @@
 mod call;
 mod check;
 mod explain;
+mod init;
+mod legend;
+mod outputs;
 mod pick;
 mod render;
+mod set;
+mod streams;
 mod texts;
 mod usage;
 mod views;

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::kinds::{cap, described, number, numbers, patterns, reference, table, text, vector};
+use crate::color_map;
 use crate::spec::NumberRange;
 use crate::spec::catalogue::{FILTERS, FilterRow, Param, ParamDefault, ParamKind};
 
@@ -32,8 +33,8 @@ fn parameters(row: &FilterRow) -> Value {
         row.params.iter().filter(|param| param.default == ParamDefault::Required).map(|param| param.name).collect();
     let mut schema = table(&required, properties.into());
     if row.name == "show" {
-        schema["minProperties"] = json!(1);
-        schema["maxProperties"] = json!(1);
+        let nodes_alone = json!({ "required": ["nodes"], "properties": { "materials": false } });
+        schema["anyOf"] = json!([{ "required": ["alternate"] }, nodes_alone]);
     }
     described(schema, row.help, Value::Null)
 }
@@ -61,6 +62,10 @@ fn kind(kind: ParamKind) -> Value {
         ParamKind::Bool => json!({ "type": "boolean" }),
         ParamKind::Text | ParamKind::File => text(),
         ParamKind::Choice(words) => json!({ "enum": words }),
+        ParamKind::ColorMap => {
+            let reversed = color_map::NAMES.iter().map(|name| format!("{name}{}", color_map::REVERSED));
+            json!({ "enum": color_map::NAMES.iter().map(|name| (*name).to_owned()).chain(reversed).collect::<Vec<_>>() })
+        }
         ParamKind::Patterns => patterns(),
         ParamKind::Cap => cap(),
         ParamKind::FreeTable => json!({ "type": "object" }),

@@ -54,6 +54,7 @@ pub fn image() -> Value {
             "How colours brighter than white are shown: cut off, or bent by Khronos PBR Neutral.",
             json!("none")
         ),
+        "legend": described(json!({ "type": "boolean" }), "What false colours and contour lines stand for, over the lower edge of the picture.", json!(false)),
     });
     described(table(&[], properties), "The picture.", NONE)
 }

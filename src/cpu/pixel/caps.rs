@@ -1,22 +1,33 @@
 //! Caps on the rays of a block: boundaries inside the nodes that an eraser cuts (SEMANTICS 6.6).
 
+use std::sync::Arc;
+
 use super::{BlockRays, OneRay, Tracer, seen_range};
 use crate::cpu::block::Block;
 use crate::cpu::geometry::Geometry;
-use crate::lens::{Boundary, RayLayers, starts_boundary};
+use crate::lens::{Boundary, RayLayers};
+use crate::pieces::{Around, Role};
 use crate::pixel::{Fragment, cap_number};
 use crate::plan::{Body, Closing, Instance, LensSet, Member, Plan};
-use crate::scene::Scene;
-use crate::view::Ray;
+use crate::scene::{Closure, Scene};
+use crate::view::{Merging, Ray};
 
 /// The nodes that may be cut, whole: what lenses erase and what lies behind the far plane tells as well where their
 /// inside is.
 pub struct CutBodies {
     geometry: Geometry,
-    /// Of each instance, the body that it belongs to and which of its members it is.
-    places: Vec<Option<(u32, u32)>>,
+    /// Of each instance, its place in a body.
+    places: Vec<Option<Place>>,
     /// The lenses without which nothing is cut; `None` where something may be anyway.
     cut_by: Option<LensSet>,
+}
+
+/// Which member of which body something is, and what its triangles enclose.
+struct Place {
+    body: u32,
+    member: u32,
+    closure: Arc<Closure>,
+    primitive: usize,
 }
 
 /// A ray goes into a member of a body, or out of it.
@@ -26,8 +37,8 @@ pub struct Crossing {
     body: u32,
     member: u32,
     depth: f32,
-    /// How often the surface winds around what lies before it, less how often around what lies behind.
-    winding: i32,
+    role: Role,
+    turns_left: bool,
 }
 
 impl CutBodies {
@@ -36,11 +47,13 @@ impl CutBodies {
         if plan.bodies.is_empty() {
             return None;
         }
-        let mut places = vec![None; plan.instances.len()];
+        let mut places: Vec<Option<Place>> = (0..plan.instances.len()).map(|_| None).collect();
         let mut cut_by = LensSet::EMPTY;
         for (number, body) in (0u32..).zip(&plan.bodies) {
             for (member, Member { instance, .. }) in (0u32..).zip(&body.members) {
-                places[*instance] = Some((number, member));
+                let item = &plan.items[plan.instances[*instance].item];
+                let closure = scene.models[item.model].closure(item.mesh, item.ratio);
+                places[*instance] = Some(Place { body: number, member, closure, primitive: item.primitive });
             }
             cut_by = cut_by | plan.cutters(body);
         }
@@ -64,14 +77,17 @@ impl Tracer<'_> {
         crossings.clear();
         bundle.start(self.sheared(rays), f32::MAX);
         bundle.trace(&cut.geometry, &self.camera, block, &range, |ray, triangle, hit| {
-            if let Some((body, member)) = cut.places[triangle.instance as usize] {
-                let winding = if hit.turns_left { 1 } else { -1 };
-                crossings.push(Crossing { ray: ray as u32, body, member, depth: self.depth(hit.t), winding });
+            if let Some(place) = &cut.places[triangle.instance as usize] {
+                let Place { body, member, closure, primitive } = place;
+                let role = closure.primitives[*primitive].role(triangle.index as usize);
+                let (depth, turns_left) = (self.depth(hit.t), hit.turns_left);
+                crossings.push(Crossing { ray: ray as u32, body: *body, member: *member, depth, role, turns_left });
             }
             None
         });
         crossings.sort_unstable_by_key(|crossing| (crossing.ray, crossing.body));
         let mut caps: Vec<(f64, Fragment)> = Vec::new();
+        let merging = self.plan.view.anchor.merging;
         for met in crossings.chunk_by(|a, b| a.ray == b.ray) {
             let ray = met[0].ray;
             caps.clear();
@@ -81,7 +97,7 @@ impl Tracer<'_> {
             }
             // Stable: at one boundary the first body stays first.
             caps.sort_by(|a, b| a.0.total_cmp(&b.0));
-            caps.dedup_by(|next, first| !starts_boundary(first.0, next.0));
+            caps.dedup_by(|next, first| !merging.starts_boundary(first.0, next.0));
             listed.extend(caps.iter().map(|(_, cap)| (ray, *cap)));
         }
     }
@@ -93,7 +109,7 @@ impl Tracer<'_> {
         // Members are moved alike.
         let steps = &instance(&body.members[0]).steps;
         let layers = moved.all(self.plan, ray, layers, steps);
-        for boundary in boundaries((0..=steps.len()).map(&layers)) {
+        for boundary in boundaries((0..=steps.len()).map(&layers), &ray.merging) {
             if opaque.is_some_and(|(opaque, _)| f64::from(opaque.depth) < boundary) {
                 continue;
             }
@@ -101,7 +117,9 @@ impl Tracer<'_> {
                 if behind { layers(steps).set_at(boundary) } else { layers(steps).set_before(boundary) }
             };
             let closed = |member: &Member| Some((member.instance, self.plan.closing(instance(member), set)?));
-            let Some((number, closing)) = around(body, crossings, boundary).find_map(closed) else { continue };
+            let Some((number, closing)) = around(body, crossings, boundary, &ray.merging).find_map(closed) else {
+                continue;
+            };
             let cap = Fragment {
                 instance: number as u32,
                 triangle: cap_number(closing.maker),
@@ -115,31 +133,37 @@ impl Tracer<'_> {
 }
 
 /// The depths of all boundaries, each once, nearest first.
-fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>) -> Vec<f64> {
+fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>, merging: &Merging) -> Vec<f64> {
     let mut depths: Vec<f64> =
         layers.flat_map(|layers| layers.starts.iter().skip(1)).map(|start| start.depth).collect();
     depths.sort_unstable_by(f64::total_cmp);
-    depths.dedup_by(|next, first| !starts_boundary(*first, *next));
+    depths.dedup_by(|next, first| !merging.starts_boundary(*first, *next));
     depths
 }
 
-/// The members of a body that may be closed at a boundary: those that enclose it by themselves, and the first of the
-/// others where those do so together. None where the boundary lies outside.
+/// The members of a body that may be closed at a boundary: the first of each group whose pieces enclose it. None where the
+/// boundary lies outside.
 ///
 /// Told by what lies behind, so that it makes no difference where the ray starts. A surface in the boundary lies behind it.
-fn around<'b>(body: &'b Body, crossings: &'b [Crossing], boundary: f64) -> impl Iterator<Item = &'b Member> {
-    let winding = move |counts: &dyn Fn(usize) -> bool| {
-        let behind = crossings.iter().filter(|crossing| !starts_boundary(f64::from(crossing.depth), boundary));
-        behind.filter(|crossing| counts(crossing.member as usize)).map(|crossing| crossing.winding).sum::<i32>()
+fn around<'b>(
+    body: &'b Body,
+    crossings: &'b [Crossing],
+    boundary: f64,
+    merging: &Merging,
+) -> impl Iterator<Item = &'b Member> + use<'b> {
+    let merging = *merging;
+    let is_inside = move |counts: &dyn Fn(usize) -> bool| {
+        let behind = crossings.iter().filter(|crossing| !merging.starts_boundary(f64::from(crossing.depth), boundary));
+        let mut around = Around::default();
+        behind
+            .filter(|crossing| counts(crossing.member as usize))
+            .for_each(|crossing| around.cross(crossing.role, crossing.turns_left));
+        around.is_inside()
     };
-    let is_closed = |number: usize| body.members[number].closed;
-    let first_open = body.members.iter().position(|member| !member.closed);
-    let encloses = move |number: usize| match is_closed(number) {
-        true => winding(&|other| other == number) != 0,
-        false => Some(number) == first_open && winding(&|other| !is_closed(other)) != 0,
-    };
-    let is_inside = winding(&|_| true) != 0;
-    let numbers = (0..body.members.len()).filter(move |number| is_inside && encloses(*number));
+    let group = |number: usize| body.members[number].group;
+    let encloses = move |number: &usize| group(*number) == *number && is_inside(&|other| group(other) == *number);
+    let is_in_body = is_inside(&|_| true);
+    let numbers = (0..body.members.len()).filter(move |_| is_in_body).filter(encloses);
     numbers.map(|number| &body.members[number])
 }
 

@@ -1,13 +1,16 @@
-//! Every filter of the format: kind, help, parameters with type, range and default.
-//! The reader of specs, `lenspeel filters` and the JSON Schema all answer from here.
+//! Every filter of the format: kind, help, parameters with type, range and default; and every shape.
+//! The reader of specs, `lenspeel filters`, `lenspeel shapes` and the JSON Schema all answer from here.
 
 mod rows;
+mod shapes;
 
 use std::fmt;
 
 pub use rows::FILTERS;
+pub use shapes::{SHAPES, ShapeRow, shape};
 
 use super::NumberRange;
+use crate::color_map;
 
 /// One filter of the format.
 #[derive(Debug)]
@@ -49,7 +52,7 @@ pub enum ParamKind {
     Integer(i64, i64),
     /// One number, or two.
     NumberOrPair(NumberRange),
-    /// Two numbers, the first below the second.
+    /// Two numbers that differ.
     Interval,
     Vector,
     Color,
@@ -57,6 +60,8 @@ pub enum ParamKind {
     Text,
     File,
     Choice(&'static [&'static str]),
+    /// The name of a colour map.
+    ColorMap,
     Patterns,
     /// What closes a cut solid.
     Cap,
@@ -119,13 +124,14 @@ impl fmt::Display for ParamKind {
             Self::Integer(min, max) => write!(f, "whole number, from {min} to {max}"),
             Self::NumberOrPair(range) if *range == NumberRange::ANY => write!(f, "number or [x, y]"),
             Self::NumberOrPair(range) => write!(f, "number or [x, y], {range}"),
-            Self::Interval => write!(f, "[low, high]"),
+            Self::Interval => write!(f, "[first, last]"),
             Self::Vector => write!(f, "[x, y, z]"),
             Self::Color => write!(f, "colour"),
             Self::Bool => write!(f, "true or false"),
             Self::Text => write!(f, "text"),
             Self::File => write!(f, "file"),
             Self::Choice(words) => write!(f, "{}", words.join(" | ")),
+            Self::ColorMap => write!(f, "{}; with -r behind it, reversed", color_map::NAMES.join(" | ")),
             Self::Patterns => write!(f, "list of patterns"),
             Self::Cap => write!(f, "colour, \"own\", \"hatch\" or \"hatch COLOUR\""),
             Self::FreeTable => write!(f, "table"),

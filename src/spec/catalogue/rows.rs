@@ -3,7 +3,8 @@
 use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
 use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
 use super::ParamKind::{
-    Bool, Cap, Choice, Color, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text, Vector,
+    Bool, Cap, Choice, Color, ColorMap, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text,
+    Vector,
 };
 use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::NumberRange;
@@ -41,7 +42,7 @@ pub const FILTERS: &[FilterRow] = &[
     filter("erase", Content, "removes what it matches", ERASE),
     pictured(
         "show-alternate.png",
-        filter("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
+        filter("show", Content, "shows another content here: an alternate or some of it, or exactly these nodes", SHOW),
     ),
     filter("lod", Content, "shows a simplified version", LOD),
     pictured("../movers/magnify.png", mover(filter("magnify", Content, "enlarges what is inside", MAGNIFY))),
@@ -63,7 +64,7 @@ pub const FILTERS: &[FilterRow] = &[
     filter("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
     filter("toon", Surface, "light in a few flat steps", TOON),
     filter("hatch", Surface, "light as pen strokes", HATCH),
-    filter("edges", Screen, "silhouettes, creases and region borders", EDGES),
+    filter("edges", Screen, "silhouettes, creases, and borders of regions and of caps", EDGES),
     filter("blur", Screen, "blurs, to push context back", BLUR),
     filter("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
     pictured("../wgsl/stripes.png", filter("wgsl", Custom, "a filter of your own, in WGSL", WGSL)),
@@ -82,8 +83,9 @@ const ERASE: &[Param] = &[
     param("cap", Cap, Meaning("open"), "closes cut solids: in a colour, their own or hatched"),
 ];
 const SHOW: &[Param] = &[
-    param("alternate", Text, Meaning("give this or nodes"), "a name under [scene.alternates]"),
-    param("nodes", Patterns, Meaning("give this or alternate"), "exactly these nodes, hidden ones too"),
+    param("alternate", Text, Meaning("the scene, of which give nodes"), "a name under [scene.alternates]"),
+    param("nodes", Patterns, Meaning("all of the alternate"), "these nodes; of the scene hidden ones, too"),
+    param("materials", Patterns, Meaning("all of the alternate"), "of the alternate, what has these materials"),
 ];
 const LOD: &[Param] = &[param("ratio", Number(NumberRange::closed(0.001, 1.0)), Num(0.1), "of triangles kept")];
 const MAGNIFY: &[Param] = &[
@@ -127,21 +129,20 @@ const UV: &[&str] = &["mesh", "planar-x", "planar-y", "planar-z", "box", "sphere
 const NORMALS: &[Param] = &[
     param(
         "colormap",
-        MAPS,
+        ColorMap,
         Meaning("x, y, z as red, green, blue"),
         "colours of the slope: 1 level, 0 upright, -1 from below",
     ),
-    param("range", Interval, Meaning("-1 to 1"), "slopes at the ends of the colours"),
+    param("range", Interval, Meaning("-1 to 1"), "slopes at the ends of the colours; may run backwards"),
 ];
-const MAPS: ParamKind = Choice(crate::color_map::NAMES);
 const FALSE_COLOR: &[Param] = &[
-    param("colormap", MAPS, Word("viridis"), "colours of the values"),
-    param("range", Interval, FITTED, "values at the ends of the colours"),
+    param("colormap", ColorMap, Word("viridis"), "colours of the values"),
+    param("range", Interval, FITTED, "values at the ends of the colours; may run backwards"),
 ];
 const ATTRIBUTE: &[Param] = &[
     param("name", Text, Required, "of the attribute, such as _TEMPERATURE"),
-    param("colormap", MAPS, Word("viridis"), "colours of the values"),
-    param("range", Interval, FITTED, "values at the ends of the colours"),
+    param("colormap", ColorMap, Word("viridis"), "colours of the values"),
+    param("range", Interval, FITTED, "values at the ends of the colours; may run backwards"),
 ];
 const CONTOURS: &[Param] = &[
     param(

@@ -10,9 +10,10 @@ use super::suggest;
 use super::table::{entries, only_entry};
 use super::{cap, color};
 use crate::InputError;
+use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
+use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +33,7 @@ enum Value {
 
 /// The filters of a lens or a rule, first to act first.
 pub fn list(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
-    item.list("a list of filters, such as [\"wireframe\"]")?.iter().map(one).collect()
+    item.each("a list of filters, such as [\"wireframe\"]", one)
 }
 
 /// The filters of an overlap rule, which may not move content (SEMANTICS 4).
@@ -246,6 +247,7 @@ fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
             let choices: Vec<_> = words.iter().map(|word| (*word, *word)).collect();
             Value::Text(item.at(item.choice(&choices)?.to_owned()))
         }
+        ParamKind::ColorMap => Value::Text(item.at(color_map(item)?.to_owned())),
         ParamKind::Patterns => Value::Patterns(item.patterns()?),
         ParamKind::Vector => Value::Vector(item.vector()?),
         ParamKind::Cap => Value::Cap(cap::read(item)?),
@@ -282,11 +284,21 @@ fn number_or_pair(item: &Item, range: NumberRange) -> Result<[f64; 2], InputErro
 }
 
 fn interval(item: &Item) -> Result<[f64; 2], InputError> {
-    let [low, high] = item.numbers(NumberRange::ANY)?;
-    if low < high {
-        return Ok([low, high]);
+    let [first, last] = item.numbers(NumberRange::ANY)?;
+    if first != last {
+        return Ok([first, last]);
     }
-    Err(item.error(format!("`{}` must be [low, high] with low below high, not [{low}, {high}]", item.name)))
+    Err(item.error(format!("`{}` must be two numbers that differ, not [{first}, {last}]", item.name)))
+}
+
+/// A known name, reversed or not.
+fn color_map<'a>(item: &Item<'a>) -> Result<&'a str, InputError> {
+    let name = item.text()?;
+    if color_map::colors(name).is_some() {
+        return Ok(name);
+    }
+    let names: Vec<_> = color_map::NAMES.iter().map(|name| (*name, *name)).collect();
+    item.choice(&names)
 }
 
 fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
@@ -341,13 +353,17 @@ fn wireframe(params: &Params) -> Option<Filter> {
 
 fn show(params: &Params) -> Result<ShowWhat, InputError> {
     const REMEDY: &str = "write { show = { alternate = \"name\" } } or { show = { nodes = [\"name\"] } }";
-    match (params.text("alternate"), params.patterns("nodes")) {
-        (Some(alternate), None) => Ok(ShowWhat::Alternate(alternate)),
-        (None, Some(nodes)) => Ok(ShowWhat::Nodes(nodes)),
-        (None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
-        (Some(_), Some(_)) => {
-            Err(params.error("filter `show` takes `alternate` or `nodes`, not both".to_owned()).help(REMEDY))
+    let (nodes, materials) = (params.patterns("nodes"), params.patterns("materials"));
+    match (params.text("alternate"), nodes, materials) {
+        (Some(name), nodes, materials) => {
+            let only = Matches { nodes: nodes.unwrap_or_default(), materials: materials.unwrap_or_default() };
+            Ok(ShowWhat::Alternate { name, only })
         }
+        (None, Some(nodes), None) => Ok(ShowWhat::Nodes(nodes)),
+        (None, None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
+        (None, _, Some(_)) => Err(params
+            .error("`materials` of filter `show` needs an `alternate`".to_owned())
+            .help("of the scene it shows `nodes`; `only` limits the lens to materials")),
     }
 }
 

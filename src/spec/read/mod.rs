@@ -16,6 +16,7 @@ mod links;
 mod number;
 mod overlap;
 mod scene;
+mod set;
 mod shape;
 pub(crate) mod suggest;
 mod table;

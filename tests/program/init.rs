@@ -1,0 +1,92 @@
+//! `lenspeel init`.
+
+use std::fs;
+
+use crate::call::{Folder, call, call_with, project};
+
+/// A model of one triangle with these coordinates.
+fn triangle(folder: &Folder, name: &str, far: f32) -> String {
+    let numbers: Vec<u8> =
+        [0.0, 0.0, 0.0, far, 0.0, 0.0, 0.0, far, 0.0].iter().flat_map(|x: &f32| x.to_le_bytes()).collect();
+    fs::write(folder.file("t.bin"), &numbers).expect("written");
+    let json = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+        "buffers": [{{"uri": "t.bin", "byteLength": 36}}], "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+        "min": [0, 0, 0], "max": [{far}, {far}, 0]}}]}}"#
+    );
+    folder.write(name, &json)
+}
+
+fn file_of(spec: &str) -> String {
+    let table: toml::Table = spec.parse().expect("TOML");
+    table["scene"]["file"].as_str().expect("a path").to_owned()
+}
+
+#[test]
+fn paths_hold_where_the_spec_is_written() {
+    let folder = Folder::new("init-paths");
+    for name in ["models", "specs", "specs/deep"] {
+        fs::create_dir(folder.file(name)).expect("a folder");
+    }
+    fs::copy(project("lens-specs/models/cubes.glb"), folder.file("models/a.glb")).expect("copied");
+    for (spec, expected) in [
+        ("specs/a.toml", "../models/a.glb"),
+        ("specs/deep/a.toml", "../../models/a.glb"),
+        ("models/a.toml", "a.glb"),
+        ("a.toml", "models/a.glb"),
+    ] {
+        call_with(&["init", "models/a.glb", "-o", spec], |command| _ = command.current_dir(folder.file(""))).good();
+        assert_eq!(file_of(&String::from_utf8_lossy(&folder.read(spec))), expected);
+        call(&["check", &folder.file(spec)]).good();
+    }
+    // Nobody knows where what is printed goes.
+    for arguments in [vec!["init", "models/a.glb"], vec!["init", "models/a.glb", "-o", "-"]] {
+        let printed = call_with(&arguments, |command| _ = command.current_dir(folder.file(""))).good();
+        assert_eq!(fs::canonicalize(file_of(&printed)).ok(), fs::canonicalize(folder.file("models/a.glb")).ok());
+        call(&["check", &folder.write("specs/printed.toml", &printed)]).good();
+    }
+}
+
+#[test]
+fn a_model_that_no_spec_fits_is_to_blame() {
+    let folder = Folder::new("init-bounds");
+    let model = triangle(&folder, "huge.gltf", 1e30);
+    for arguments in [vec!["init", &model], vec!["init", &model, "-o", &folder.file("a.toml")]] {
+        let report = call(&arguments).refused();
+        assert!(report.contains("huge.gltf: no starter spec fits the model, whose bounds are 1"), "{report}");
+        assert!(!report.contains("│"), "no line of a spec is shown: {report}");
+    }
+    assert_eq!(folder.names(), ["huge.gltf", "t.bin"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_path_that_no_spec_can_name_is_told() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    let folder = Folder::new("init-path");
+    let path = std::path::Path::new(&folder.file("")).join(OsStr::from_bytes(b"caf\xe9.glb"));
+    fs::copy(project("lens-specs/models/cubes.glb"), &path).expect("copied");
+    let init = |arguments: &[&str]| call_with(&["init"], |command| _ = command.arg(&path).args(arguments));
+    for arguments in [vec![], vec!["-o", &folder.file("a.toml")]] {
+        let report = init(&arguments).refused();
+        assert!(report.contains("is not UTF-8"), "{report}");
+    }
+    assert_eq!(folder.names().len(), 1);
+}
+
+#[test]
+fn a_model_in_place_of_a_spec_is_told_what_to_do() {
+    let folder = Folder::new("init-instead");
+    let (json, binary) = (triangle(&folder, "t.gltf", 1.0), project("lens-specs/models/cubes.glb"));
+    for model in [&json, &binary] {
+        for command in ["check", "explain"] {
+            let report = call(&[command, model]).refused();
+            assert!(report.contains("a lens spec is expected"), "{report}");
+            assert!(report.contains(&format!("`lenspeel init {model} -o SPEC.toml`")), "{report}");
+        }
+    }
+}
