@@ -93,6 +93,23 @@ fn every_module_is_valid_for_every_plan() {
     }
 }
 
+/// What the driver sees.
+#[test]
+fn every_module_is_valid_without_what_a_plan_does_not_need() {
+    for module in Module::ALL {
+        for needs in NEEDS {
+            let whole = parsed(module, needs);
+            let count = |module: &naga::Module| module.functions.len();
+            let pruned = lenspeel::gpu::pruned(whole.clone());
+            assert!(needs == MOST || count(&pruned) < count(&whole), "{} stays whole", module.name());
+            assert_eq!(pruned.entry_points.len(), whole.entry_points.len());
+            let all = naga::valid::ValidationFlags::all();
+            let outcome = naga::valid::Validator::new(all, naga::valid::Capabilities::empty()).validate(&pruned);
+            assert!(outcome.is_ok(), "{} with {needs:?}: {outcome:?}", module.name());
+        }
+    }
+}
+
 /// Browsers refuse `textureSample` where control flow is not uniform, and naga lets it pass: texels are loaded.
 fn samples_textures(module: &naga::Module) -> bool {
     let functions = module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function));

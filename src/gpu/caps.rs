@@ -11,7 +11,10 @@ pub struct AdapterChoice {
 
 /// Every adapter of the native backends, hardware first.
 pub fn adapters() -> Vec<wgpu::Adapter> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    // Where `WGPU_DEBUG` does not ask for it, no driver is told lines of shaders: debug builds spend long on them.
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.flags.remove(wgpu::InstanceFlags::DEBUG);
+    let instance = wgpu::Instance::new(descriptor.with_env());
     let mut found = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
     found.sort_by_key(|adapter| preference(adapter.get_info().device_type));
     found

@@ -1,5 +1,6 @@
 //! Compiled pipelines.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -7,6 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::bindings::Layouts;
 use super::draws::Culling;
 use super::item_data::item_stride;
+use super::prune::pruned;
 use super::records::ItemRecord;
 use super::{Module, Needs, source};
 
@@ -172,10 +174,13 @@ impl Pipelines {
     }
 
     fn compile(&self, device: &wgpu::Device, module: Module) -> wgpu::ShaderModule {
-        device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(module.name()),
-            source: wgpu::ShaderSource::Wgsl(source(module, &self.needs, &self.custom).into()),
-        })
+        let text = source(module, &self.needs, &self.custom);
+        let source = match naga::front::wgsl::parse_str(&text) {
+            Ok(parsed) => wgpu::ShaderSource::Naga(Cow::Owned(pruned(parsed))),
+            // The device reports what is wrong.
+            Err(_) => wgpu::ShaderSource::Wgsl(text.into()),
+        };
+        device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(module.name()), source })
     }
 
     /// Lists what rays meet of what may be cut.

@@ -10,11 +10,13 @@ mod gpu;
 #[path = "../support/open.rs"]
 #[allow(dead_code, reason = "these scenes are made in code")]
 mod open;
+#[path = "../support/timed.rs"]
+mod timed;
 
 use lenspeel::cpu;
 use lenspeel::frame::{Aovs, Frame};
 use lenspeel::pixel::cap_maker;
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Arguments, Trial};
 
 use open::Opened;
 
@@ -22,6 +24,8 @@ use open::Opened;
 type Draw = fn(&Opened) -> Result<Frame, String>;
 
 fn main() {
+    #[cfg(feature = "gpu")]
+    gpu::translate_fast();
     let arguments = Arguments::from_args();
     let mut trials = controls::trials();
     for (name, check) in cases::ALL {
@@ -37,11 +41,11 @@ fn main() {
         let needs_gpu = |name: &str| !name.ends_with("::cpu");
         trials = trials.into_iter().map(|t| if needs_gpu(t.name()) { t.with_ignored_flag(true) } else { t }).collect();
     }
-    libtest_mimic::run(&arguments, trials).exit();
+    timed::run(&arguments, trials).exit();
 }
 
 fn trial(name: &str, backend: &str, check: cases::Check, draw: Draw) -> Trial {
-    Trial::test(format!("{name}::{backend}"), move || check(draw).map_err(Failed::from))
+    timed::trial(format!("{name}::{backend}"), move || check(draw))
 }
 
 fn on_cpu(opened: &Opened) -> Result<Frame, String> {

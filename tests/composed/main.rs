@@ -21,24 +21,27 @@ mod product;
 mod random;
 mod run;
 mod shrink;
+#[path = "../support/timed.rs"]
+mod timed;
 mod write;
 
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::Arguments;
 
 use product::Party;
 
 fn main() {
+    #[cfg(feature = "gpu")]
+    gpu::translate_fast();
     let arguments = Arguments::from_args();
-    let trial =
-        |party: Party| Trial::test(format!("cases::{}", party.name()), move || run::all(party).map_err(Failed::from));
+    let trial = |party: Party| timed::trial(format!("cases::{}", party.name()), move || run::all(party));
     let mut trials = vec![trial(Party::Cpu)];
     #[cfg(feature = "gpu")]
     {
         let ignored = gpu::is_ignored();
         trials.extend(gpu::ENGINES.map(|(engine, _)| trial(Party::Gpu(engine)).with_ignored_flag(ignored)));
     }
-    trials.extend(controls::ALL.map(|control| {
-        Trial::test(format!("controls::{}", control.0), move || controls::run(control).map_err(Failed::from))
-    }));
-    libtest_mimic::run(&arguments, trials).exit();
+    trials.extend(
+        controls::ALL.map(|control| timed::trial(format!("controls::{}", control.0), move || controls::run(control))),
+    );
+    timed::run(&arguments, trials).exit();
 }

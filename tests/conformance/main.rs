@@ -16,17 +16,19 @@ mod edges;
 mod gpu;
 #[path = "../support/open.rs"]
 mod open;
+#[path = "../support/timed.rs"]
+mod timed;
 
 use std::path::Path;
 
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Arguments, Trial};
 
 /// A folder with fewer is not the one that is meant.
 const LEAST_CASES: usize = 20;
 
-type Check = Box<dyn FnOnce() -> Result<(), String> + Send>;
-
 fn main() {
+    #[cfg(feature = "gpu")]
+    gpu::translate_fast();
     let arguments = Arguments::from_args();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/conformance");
     let trials = if folder.is_dir() {
@@ -35,7 +37,7 @@ fn main() {
         println!("{} is not there: its cases are ignored", folder.display());
         vec![Trial::test("conformance", || Ok(())).with_ignored_flag(true)]
     };
-    libtest_mimic::run(&arguments, trials).exit();
+    timed::run(&arguments, trials).exit();
 }
 
 fn trials(folder: &Path) -> Vec<Trial> {
@@ -47,7 +49,7 @@ fn trials(folder: &Path) -> Vec<Trial> {
         trials.extend(backends(&name, &path));
     }
     for path in case::specs(&folder.join("errors")) {
-        trials.push(trial(format!("errors/{}", case::stem(&path)), move || refused::check(&path)));
+        trials.push(timed::trial(format!("errors/{}", case::stem(&path)), move || refused::check(&path)));
     }
     trials
 }
@@ -56,20 +58,15 @@ fn trials(folder: &Path) -> Vec<Trial> {
 fn backends(name: &str, path: &Path) -> Vec<Trial> {
     let on_cpu = path.to_path_buf();
     #[cfg_attr(not(feature = "gpu"), expect(unused_mut, reason = "the GPU adds to it"))]
-    let mut trials = vec![trial(format!("{name}::cpu"), move || case::check(&on_cpu, case::on_cpu))];
+    let mut trials = vec![timed::trial(format!("{name}::cpu"), move || case::check(&on_cpu, case::on_cpu))];
     #[cfg(feature = "gpu")]
     {
         let ignored = gpu::is_ignored();
         trials.extend(gpu::ENGINES.map(|(engine, what)| {
             let path = path.to_path_buf();
             let check = move || case::check(&path, |opened| gpu::render(opened, engine));
-            trial(format!("{name}::{what}"), check).with_ignored_flag(ignored)
+            timed::trial(format!("{name}::{what}"), check).with_ignored_flag(ignored)
         }));
     }
     trials
-}
-
-fn trial(name: String, check: impl FnOnce() -> Result<(), String> + Send + 'static) -> Trial {
-    let check: Check = Box::new(check);
-    Trial::test(name, move || check().map_err(Failed::from))
 }

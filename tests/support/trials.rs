@@ -2,16 +2,22 @@
 //!
 //! Without an adapter they report as ignored; with `LENSPEEL_REQUIRE_GPU=1` a missing adapter is a failure.
 
+#[path = "driver.rs"]
+mod driver;
+#[path = "timed.rs"]
+mod timed;
+
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use lenspeel::gpu::{Headless, choose_named};
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::Arguments;
 
 pub type Test = fn(&Headless) -> Result<(), String>;
 
 /// Runs those of the named tests that the command line asks for.
 pub fn run(tests: &[(&str, Test)]) -> ExitCode {
+    driver::translate_fast();
     let arguments = Arguments::from_args();
     let device = device();
     let required = std::env::var("LENSPEEL_REQUIRE_GPU").is_ok_and(|v| v != "0" && !v.is_empty());
@@ -25,13 +31,13 @@ pub fn run(tests: &[(&str, Test)]) -> ExitCode {
         .map(|&(name, test)| {
             let device = device.clone();
             let run = move || match &*device {
-                Ok(device) => test(device).map_err(Failed::from),
-                Err(reason) => Err(Failed::from(reason.as_str())),
+                Ok(device) => test(device),
+                Err(reason) => Err(reason.clone()),
             };
-            Trial::test(name, run).with_ignored_flag(ignored)
+            timed::trial(name, run).with_ignored_flag(ignored)
         })
         .collect();
-    libtest_mimic::run(&arguments, trials).exit_code()
+    timed::run(&arguments, trials).exit_code()
 }
 
 fn device() -> Result<Headless, String> {

@@ -1,0 +1,137 @@
+//! Takes out of a shader what a plan does not need.
+//!
+//! The constants that [`Needs`](super::Needs) writes say what that is. Drivers put a function's body in the place of
+//! every call before they look at conditions: code that never runs would cost them seconds.
+
+use std::collections::HashMap;
+
+use naga::compact::{KeepUnused, compact};
+use naga::{Block, Constant, Expression, Function, Handle, Literal, Module, Statement, SwitchCase};
+
+/// The same shader without branches that constants rule out, and without what only those use.
+pub fn pruned(mut module: Module) -> Module {
+    let constants = known_constants(&module);
+    let entries = module.entry_points.iter_mut().map(|entry| &mut entry.function);
+    for function in module.functions.iter_mut().map(|(_, function)| function).chain(entries) {
+        let body = std::mem::take(&mut function.body);
+        function.body = pruned_block(body, &|condition| known(function, &constants, condition));
+        // A name would keep what it names, and the function that it is the result of.
+        function.named_expressions.clear();
+    }
+    compact(&mut module, KeepUnused::No);
+    module
+}
+
+fn known_constants(module: &Module) -> HashMap<Handle<Constant>, bool> {
+    let value = |constant: &Constant| match module.global_expressions[constant.init] {
+        Expression::Literal(Literal::Bool(value)) => Some(value),
+        _ => None,
+    };
+    module.constants.iter().filter_map(|(handle, constant)| Some((handle, value(constant)?))).collect()
+}
+
+/// What a condition is, where that is known. The front end has computed what is made of constants.
+fn known(
+    function: &Function,
+    constants: &HashMap<Handle<Constant>, bool>,
+    condition: Handle<Expression>,
+) -> Option<bool> {
+    match function.expressions[condition] {
+        Expression::Literal(Literal::Bool(value)) => Some(value),
+        Expression::Constant(constant) => constants.get(&constant).copied(),
+        _ => None,
+    }
+}
+
+fn pruned_block(block: Block, known: &impl Fn(Handle<Expression>) -> Option<bool>) -> Block {
+    let mut kept = Block::new();
+    for (statement, span) in block.span_into_iter() {
+        let statement = match statement {
+            Statement::If { condition, accept, reject } => match known(condition) {
+                Some(holds) => Statement::Block(pruned_block(if holds { accept } else { reject }, known)),
+                None => Statement::If {
+                    condition,
+                    accept: pruned_block(accept, known),
+                    reject: pruned_block(reject, known),
+                },
+            },
+            Statement::Block(inner) => Statement::Block(pruned_block(inner, known)),
+            Statement::Switch { selector, cases } => {
+                let pruned = |case: SwitchCase| SwitchCase { body: pruned_block(case.body, known), ..case };
+                Statement::Switch { selector, cases: cases.into_iter().map(pruned).collect() }
+            }
+            Statement::Loop { body, continuing, break_if } => Statement::Loop {
+                body: pruned_block(body, known),
+                continuing: pruned_block(continuing, known),
+                break_if,
+            },
+            other => other,
+        };
+        let ends = ends(&statement);
+        match statement {
+            Statement::Block(inner) => kept.extend_block(inner),
+            other => kept.push(other, span),
+        }
+        // Nothing may stand behind it.
+        if ends {
+            break;
+        }
+    }
+    kept
+}
+
+fn ends(statement: &Statement) -> bool {
+    match statement {
+        Statement::Return { .. } | Statement::Break | Statement::Continue | Statement::Kill => true,
+        Statement::Block(inner) => inner.last().is_some_and(ends),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "
+        const NEEDED: bool = true;
+        const NOT_NEEDED: bool = false;
+        @group(0) @binding(0) var<storage, read_write> out: array<f32>;
+        fn costly(x: f32) -> f32 { return sin(x); }
+        fn cheap(x: f32) -> f32 {
+            if NEEDED && !NOT_NEEDED { return x + 1.0; }
+            return costly(x);
+        }
+        @compute @workgroup_size(1) fn run(@builtin(global_invocation_id) id: vec3u) {
+            loop {
+                if NOT_NEEDED { out[0] = costly(3.0); } else { if id.x > 3u { break; } }
+                while NOT_NEEDED && id.x > 2u { out[1] = costly(2.0); }
+                switch id.y { case 1u: { if NEEDED { out[2] = cheap(1.0); } } default: {} }
+                if id.y > 0u { if NOT_NEEDED { out[3] = costly(1.0); } }
+                if NEEDED { break; }
+                let named = costly(0.0);
+                out[4] = named;
+            }
+        }";
+
+    fn parsed(text: &str) -> Module {
+        naga::front::wgsl::parse_str(text).expect("WGSL")
+    }
+
+    fn names(module: &Module) -> Vec<&str> {
+        module.functions.iter().filter_map(|(_, function)| function.name.as_deref()).collect()
+    }
+
+    #[test]
+    fn what_never_runs_is_gone_and_the_rest_is_valid() {
+        let module = pruned(parsed(TEXT));
+        assert_eq!(names(&module), ["cheap"]);
+        let all = naga::valid::ValidationFlags::all();
+        naga::valid::Validator::new(all, naga::valid::Capabilities::empty()).validate(&module).expect("valid");
+    }
+
+    #[test]
+    fn what_may_run_stays() {
+        let text = TEXT.replace("const NOT_NEEDED: bool = false;", "@id(0) override NOT_NEEDED: bool = false;");
+        assert_eq!(names(&pruned(parsed(&text))), ["costly", "cheap"]);
+    }
+}
