@@ -29,7 +29,7 @@ pub fn is_ignored() -> bool {
 
 /// What plans have in common that need the same shaders, whichever engine draws them.
 pub fn needs(opened: &Opened) -> Needs {
-    Needs::of(&opened.scene, &opened.plan, Engine::Fused)
+    Needs::of(&opened.scene, &opened.plan, Engine::Fused, &[])
 }
 
 /// The picture with its AOVs.
