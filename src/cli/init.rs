@@ -17,12 +17,7 @@ const VIEW: DVec3 = DVec3::new(1.0, 0.7, 1.3);
 const FOV_Y: f64 = 45.0;
 
 /// Writes a starter spec, to standard output where no file is named.
-pub fn run(
-    path: &Path,
-    output: Option<&Path>,
-    options: &OpenOptions,
-    messages: Messages,
-) -> Result<(), InputError> {
+pub fn run(path: &Path, output: Option<&Path>, options: &OpenOptions, messages: Messages) -> Result<(), InputError> {
     let output = output.unwrap_or(Path::new(outputs::STREAM));
     let into_file = !outputs::is_stream(output) && matches!(Place::of(output)?, Place::File(_));
     if into_file && output.exists() {

@@ -33,7 +33,9 @@ impl Spec {
         let kind = FileKind::of(&bytes);
         if kind.is_model() {
             let message = format!("{name} is {}, and a lens spec is expected", kind.name);
-            return Err(InputError::new(message).help(format!("`lenspeel init {name} -o SPEC.toml` writes a spec for it")));
+            return Err(
+                InputError::new(message).help(format!("`lenspeel init {name} -o SPEC.toml` writes a spec for it"))
+            );
         }
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
