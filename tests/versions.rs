@@ -67,7 +67,7 @@ fn planned(case: &Case, shape: Option<&str>) -> (Scene, Plan) {
     (scene, plan)
 }
 
-fn depths((scene, plan): &(Scene, Plan)) -> Vec<f32> {
+fn depths((scene, plan): &(Scene, Plan)) -> Vec<f64> {
     cpu::Renderer::new(scene, plan)
         .and_then(|cpu| cpu.render(true, &|_| ()))
         .expect("the CPU draws it")
@@ -77,14 +77,14 @@ fn depths((scene, plan): &(Scene, Plan)) -> Vec<f32> {
 }
 
 /// How far versions of what is seen may lie from each other: at the rim of a part what lies behind it is seen in one of them.
-fn spreads((scene, plan): &(Scene, Plan)) -> Vec<f32> {
+fn spreads((scene, plan): &(Scene, Plan)) -> Vec<f64> {
     let instances = cpu::Renderer::new(scene, plan)
         .and_then(|cpu| cpu.render(true, &|_| ()))
         .expect("the CPU draws it")
         .aovs
         .expect("they were asked for")
         .instances;
-    let spread = |instance: u32| plan.instances.get(instance as usize).map_or(0.0, |instance| instance.spread as f32);
+    let spread = |instance: u32| plan.instances.get(instance as usize).map_or(0.0, |instance| instance.spread);
     instances.into_iter().map(spread).collect()
 }
 

@@ -162,7 +162,7 @@ mod tests {
         fs::write(&old, "old").expect("written");
         fs::set_permissions(&old, fs::Permissions::from_mode(0o640)).expect("set");
         fs::write(&plain, "").expect("written");
-        [&old, &new].map(|path| write_whole(path, b"bytes").expect("written"));
+        [&old, &new].into_iter().for_each(|path| write_whole(path, b"bytes").expect("written"));
         let mode = |path| fs::metadata(path).expect("there").permissions().mode() & 0o777;
         assert_eq!((mode(&old), mode(&new)), (0o640, mode(&plain)));
         assert_eq!(fs::read(&old).expect("there"), b"bytes");
@@ -177,7 +177,7 @@ mod tests {
         symlink("inner/there", at("a")).expect("linked");
         symlink("a", at("b")).expect("linked");
         symlink("inner/not-yet", at("c")).expect("linked");
-        [at("b"), at("c")].map(|path| write_whole(&path, b"new").expect("written"));
+        [at("b"), at("c")].iter().for_each(|path| write_whole(path, b"new").expect("written"));
         assert_eq!(["inner/there", "inner/not-yet"].map(|name| fs::read(at(name)).expect("there")), [b"new", b"new"]);
         assert!(["a", "b", "c"].iter().all(|name| at(name).is_symlink()));
         symlink("e", at("d")).expect("linked");

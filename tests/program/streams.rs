@@ -136,7 +136,7 @@ mod linux {
         let spec = project("lens-specs/overlap/three-spheres.toml");
         let arguments = ["render", &spec, "-o", &picture, "--size", "8x6", "-q"];
         let call = call_with(&arguments, |command| {
-            ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "DISPLAY"].map(|name| _ = command.env_remove(name));
+            ["XDG_RUNTIME_DIR", "WAYLAND_DISPLAY", "DISPLAY"].into_iter().for_each(|name| _ = command.env_remove(name));
         });
         assert_eq!((call.code, call.err.as_str()), (Some(0), ""));
         assert!(!folder.read("a.png").is_empty());
