@@ -47,9 +47,21 @@ fn edge_function(origin: vec3f, direction: vec3f, a: vec3f, b: vec3f) -> f32 {
     return dot(cross(a - origin, b - a), direction);
 }
 
-// Distance in pixels to the nearest edge of a triangle.
-fn wire_distance(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f) -> f32 {
-    return min(edge_distance(ray, a, b), min(edge_distance(ray, b, c), edge_distance(ray, c, a)));
+// Seen so much edge on, by its sine, a triangle is not seen.
+const EDGE_ON: f32 = 1e-4;
+
+// Whether the picture shows the triangle across the edge from `a` to `b`, whose other corner is `d`, beyond the edge, and not
+// behind or in front of the triangle with the corner `c`.
+fn goes_on_across(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f, d: vec3f) -> bool {
+    // The plane of the edge and the eye.
+    var toward = ray.direction;
+    if dot(ray.direction_dx, ray.direction_dx) > 0.0 {
+        toward = a - ray.origin;
+    }
+    let normal = cross(toward, b - a);
+    let own = dot(normal, c - a);
+    let other = dot(normal, d - a) * select(1.0, -1.0, own > 0.0);
+    return other > EDGE_ON * length(normal) * length(d - a);
 }
 
 // Distance in pixels to the nearest corner of a triangle.
@@ -171,12 +183,6 @@ fn plane_steps(ray: PixelRay, depth: f32, normal: vec3f, least: f32) -> PlaneSte
     let right = across_x - ray.direction * (dot(normal, across_x) * slope);
     let down = across_y - ray.direction * (dot(normal, across_y) * slope);
     return PlaneSteps(right, down);
-}
-
-// World lengths that a pixel's step to the right and down span on the plane through `position` with `normal`.
-fn position_footprint(ray: PixelRay, position: vec3f, normal: vec3f) -> vec2f {
-    let steps = steps_at(ray, position, normal);
-    return vec2f(length(steps.right), length(steps.down));
 }
 
 // On the plane through `position`, which the ray meets there.

@@ -135,6 +135,8 @@ struct Item {
     ratio: f32,
     // How far versions of it may lie from each other.
     spread: f32,
+    // What lies across the edges of its triangles, in `numbers`, or NONE.
+    across: u32,
     masks: array<u32, 6u * WORDS>,
     // Of each channel, where its numbers start in `attributes`, or NONE, and a factor.
     channels: array<u32, 2u * CHANNELS>,

@@ -87,6 +87,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         node: item.node as u32,
         ratio: item.ratio,
         spread: instance.spread as f32,
+        across: range.across,
     }
 }
 

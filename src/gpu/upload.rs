@@ -10,7 +10,7 @@ use super::provoking::Provoking;
 use super::records::NONE;
 use super::{Error, bindings};
 use crate::plan::Item;
-use crate::scene::{Primitive, Scene};
+use crate::scene::{Across, Mesh, Primitive, Scene};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,12 +24,18 @@ pub struct Range {
     pub tangents: u32,
     pub colors: u32,
     pub uv: [u32; 2],
+    /// Where what lies across the edges of its triangles starts, among the numbers, or [`NONE`].
+    pub across: u32,
     /// Of other numbers at vertices, by name.
     pub values: BTreeMap<String, u32>,
 }
 
 /// Model, mesh, primitive, and the bits of the ratio of its version.
 type Place = (usize, usize, usize, u32);
+
+/// In a word of what lies across an edge: no triangle, and that the surface turns there. Twins of `shade.wgsl`.
+const NO_VERTEX: u32 = FEATURE - 1;
+const FEATURE: u32 = 1 << 31;
 
 /// Everything of a scene that no plan changes.
 #[derive(Debug)]
@@ -50,12 +56,50 @@ struct Lists {
 }
 
 impl Lists {
-    /// `wanted`: the names of the numbers at vertices that filters read.
+    /// Adds a mesh: the versions of its primitives, by their numbers and ratios. `wanted`: the names of the numbers at
+    /// vertices that filters read.
+    fn add_mesh(&mut self, mesh: &Mesh, wanted: &BTreeMap<String, [f32; 2]>) -> Vec<(usize, f32, Range, Vec<Cluster>)> {
+        // Of the vertices of all primitives, one after the other: where a copy of each stands.
+        let mut copies = Vec::new();
+        let mut added = Vec::new();
+        for (number, primitive) in mesh.primitives.iter().enumerate() {
+            for (version, (ratio, triangles)) in primitive.versions().enumerate() {
+                let whole = (version == 0).then_some(&mut copies);
+                let (range, clusters) = self.add(primitive, triangles, wanted, whole);
+                added.push((number, ratio, range, clusters));
+            }
+        }
+        for (number, ratio, range, _) in &mut added {
+            range.across = self.across(mesh.primitives[*number].across_of(*ratio), range, &copies);
+        }
+        added
+    }
+
+    /// What lies across the edges of triangles, in the order in which they are drawn.
+    fn across(&mut self, across: &[[Across; 3]], range: &Range, copies: &[u32]) -> u32 {
+        if across.is_empty() {
+            return NONE;
+        }
+        let start = self.numbers.len();
+        let first = range.first_number as usize;
+        let word = |across: &Across| {
+            let opposite = across.opposite().map_or(NO_VERTEX, |vertex| copies[vertex as usize].min(NO_VERTEX));
+            opposite | if across.is_feature() { FEATURE } else { 0 }
+        };
+        for triangle in first..first + across.len() {
+            let own = across[self.numbers[triangle] as usize].each_ref().map(word);
+            self.numbers.extend(own);
+        }
+        start as u32
+    }
+
+    /// `copies`: where to append the places of the primitive's vertices.
     fn add(
         &mut self,
         primitive: &Primitive,
         triangles: &[[u32; 3]],
         wanted: &BTreeMap<String, [f32; 2]>,
+        copies: Option<&mut Vec<u32>>,
     ) -> (Range, Vec<Cluster>) {
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
@@ -68,8 +112,14 @@ impl Lists {
             tangents: self.attribute(&order, primitive.tangents.as_deref()),
             colors: self.attribute(&order, primitive.colors.as_deref()),
             uv: [0, 1].map(|set| self.attribute(&order, primitive.uv[set].as_deref())),
+            across: NONE,
             values: self.values(&order, primitive, wanted),
         };
+        if let Some(copies) = copies {
+            copies.extend(std::iter::repeat_n(NONE, primitive.positions.len()));
+            let own = copies.len() - primitive.positions.len();
+            (range.base_vertex..).zip(&order.sources).for_each(|(copy, source)| copies[own + *source as usize] = copy);
+        }
         self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
         self.numbers.extend(numbers);
@@ -105,11 +155,8 @@ impl SceneData {
         let mut primitives = HashMap::new();
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
-                for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    for (ratio, triangles) in primitive.versions() {
-                        let added = lists.add(primitive, triangles, &scene.value_ranges);
-                        primitives.insert((m, i, p, ratio.to_bits()), added);
-                    }
+                for (p, ratio, range, clusters) in lists.add_mesh(mesh, &scene.value_ranges) {
+                    primitives.insert((m, i, p, ratio.to_bits()), (range, clusters));
                 }
             }
         }

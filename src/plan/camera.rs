@@ -161,7 +161,7 @@ fn fitted(view: &View, spec: &Spec, scene: &Scene, volumes: &[Option<Placed>], o
             continue;
         }
         for filter in &lens.filters {
-            if let Some(reach) = instances::reach(&filter.value, placed, &seen) {
+            if let Some(reach) = instances::reach(&filter.value, placed, &seen, view) {
                 points.extend(reach.corners());
                 seen = seen.union(reach);
             }

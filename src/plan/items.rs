@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::InputError;
 use crate::pixel::FIRST_CAP;
-use crate::scene::{Aabb, Model, Primitive, Scene, Subject};
+use crate::scene::{Aabb, Across, Model, Primitive, Scene, Subject};
 use crate::spec::{At, By, Cap, Filter, Pattern, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
@@ -72,6 +72,11 @@ impl Item {
     /// Corners of its triangles: vertices of its primitive.
     pub fn triangle_list<'a>(&self, scene: &'a Scene) -> &'a [[u32; 3]] {
         self.primitive_of(scene).version(self.ratio).unwrap_or_default()
+    }
+
+    /// What lies across the edges of its triangles; empty where no filter has asked for it.
+    pub fn across<'a>(&self, scene: &'a Scene) -> &'a [[Across; 3]] {
+        self.primitive_of(scene).across_of(self.ratio)
     }
 
     pub fn primitive_of<'a>(&self, scene: &'a Scene) -> &'a Primitive {

@@ -115,7 +115,7 @@ impl Plan {
         let mut warnings = warnings::collect(spec, scene);
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
-        let instances = instances::collect(&items, &lenses, scene)?;
+        let instances = instances::collect(&items, &lenses, scene, &view)?;
         Ok(Self {
             samples: spec.image.samples,
             tone_mapping: match spec.image.tone_mapping {

@@ -2,6 +2,7 @@
 //!
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
+mod across;
 mod animation;
 mod bounds;
 mod closed;
@@ -16,6 +17,7 @@ mod simplified;
 mod textures;
 mod vertex_values;
 
+pub use across::Across;
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
 pub use closed::{Closure, ClosureCache};

@@ -31,6 +31,8 @@ pub struct Scene {
     pub custom_filters: BTreeMap<PathBuf, Arc<Custom>>,
     /// The fitted range of each vertex value that a filter shows.
     pub value_ranges: BTreeMap<String, [f32; 2]>,
+    /// What lies across the edges of triangles has been found.
+    pub has_edges: bool,
     /// The solids of `mesh` shapes.
     pub lens_meshes: LensMeshes,
 }
@@ -95,6 +97,7 @@ impl Scene {
                     self.add_values(quantity, spec)?;
                 }
                 Filter::Contours { quantity, .. } => self.add_values(quantity, spec)?,
+                Filter::Wireframe { .. } => self.has_edges = true,
                 Filter::Wgsl { file, .. } => {
                     self.add_custom(&file.value).map_err(|e| e.or_at(&spec.source, file.span.clone()))?;
                 }
@@ -102,6 +105,9 @@ impl Scene {
             }
         }
         self.simplify(spec);
+        if self.has_edges {
+            self.models.iter_mut().for_each(Model::add_across);
+        }
         Ok(())
     }
 

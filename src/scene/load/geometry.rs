@@ -95,6 +95,7 @@ fn primitive(
         normals,
         triangles,
         simplified: Vec::new(),
+        across: Vec::new(),
     }))
 }
 

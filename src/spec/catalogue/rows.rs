@@ -74,6 +74,7 @@ const WIREFRAME: &[Param] = &[
     param("color", Color, OWN, "of the lines"),
     param("fill", UNIT, Num(0.0), "opacity between the lines"),
     param("hidden", Bool, Yes(true), "draw the lines that nearer surfaces of the lens would hide"),
+    param("edges", Choice(&["all", "feature"]), Word("all"), "`feature` leaves out the diagonals of flat polygons"),
 ];
 const POINTS: &[Param] = &[param("size", PIXELS, Num(3.0), "of the discs, pixels")];
 const ERASE: &[Param] = &[

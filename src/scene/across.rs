@@ -1,0 +1,307 @@
+//! What lies across the edges of triangles, for wires: those of a border have no second half, and those within a flat
+//! polygon are its triangulation's, not the shape's.
+
+use std::collections::HashMap;
+
+use glam::{I64Vec3, Vec3};
+use rayon::prelude::*;
+
+use super::{Mesh, Model, Primitive};
+
+/// What lies across an edge of a triangle: another triangle of its mesh, or nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Across(u32);
+
+const FEATURE: u32 = 1 << 31;
+const NOTHING: u32 = FEATURE - 1;
+
+impl Across {
+    /// Nothing: the mesh ends there.
+    pub const BORDER: Self = Self(FEATURE | NOTHING);
+
+    fn new(opposite: u32, is_feature: bool) -> Self {
+        Self(opposite.min(NOTHING) | if is_feature { FEATURE } else { 0 })
+    }
+
+    /// The corner of the other triangle that is not on the edge: a vertex of the mesh, counted through its primitives.
+    pub fn opposite(self) -> Option<u32> {
+        Some(self.0 & NOTHING).filter(|vertex| *vertex != NOTHING)
+    }
+
+    /// The surface turns there, or ends, or another primitive begins.
+    pub fn is_feature(self) -> bool {
+        self.0 & FEATURE != 0
+    }
+}
+
+/// Vertices nearer than this share of a mesh's longest side are one, where nothing else lies across an edge.
+const WELD: f64 = 1e-6;
+/// Neighbours lie in one plane up to this angle, in radians: what files round, and no more than a fine tessellation turns.
+const FLAT: f32 = 1e-3;
+/// Or up to this share of their largest coordinate.
+const ROUNDING: f32 = 2e-6;
+/// Of so many triangles at one edge each is held against all others.
+const MOST_AT_AN_EDGE: usize = 16;
+
+impl Mesh {
+    /// The position of a vertex, counted through all primitives.
+    pub fn vertex(&self, number: u32) -> Option<Vec3> {
+        let mut rest = number as usize;
+        for primitive in &self.primitives {
+            match primitive.positions.get(rest) {
+                Some(position) => return Some(*position),
+                None => rest -= primitive.positions.len(),
+            }
+        }
+        None
+    }
+}
+
+impl Model {
+    /// Finds what lies across the edges of all triangles that are drawn, in every version.
+    pub(super) fn add_across(&mut self) {
+        let mut drawn: Vec<usize> = self.nodes.iter().filter(|node| node.drawn).filter_map(|node| node.mesh).collect();
+        drawn.sort_unstable();
+        drawn.dedup();
+        let is_known = |own: &Primitive| {
+            let simplified = || own.simplified.iter().all(|version| version.across.len() == version.triangles.len());
+            own.across.len() == own.triangles.len() && simplified()
+        };
+        drawn.retain(|mesh| !self.meshes[*mesh].primitives.iter().all(is_known));
+        let all: Vec<Vec<Version>> = drawn.par_iter().map(|mesh| versions(&self.meshes[*mesh])).collect();
+        for (mesh, versions) in drawn.into_iter().zip(all) {
+            for Version { primitive, number, across } in versions {
+                let primitive = &mut self.meshes[mesh].primitives[primitive];
+                match number.checked_sub(1) {
+                    None => primitive.across = across,
+                    Some(simplified) => primitive.simplified[simplified].across = across,
+                }
+            }
+        }
+    }
+}
+
+/// The triangles of a primitive (number 0) or a simplified version of it, with what lies across their edges.
+struct Version {
+    primitive: usize,
+    number: usize,
+    across: Vec<[Across; 3]>,
+}
+
+/// All versions of a mesh: simplified ones beside those of the same ratio, where there are such.
+fn versions(mesh: &Mesh) -> Vec<Version> {
+    let mut ratios: Vec<f32> = mesh.primitives.iter().flat_map(|own| own.versions().map(|(ratio, _)| ratio)).collect();
+    ratios.sort_by(|a, b| b.total_cmp(a));
+    ratios.dedup();
+    let places = Places::new(mesh);
+    let of_ratio = |ratio: &f32| {
+        let lists: Vec<&[[u32; 3]]> =
+            mesh.primitives.iter().map(|own| own.version(*ratio).unwrap_or(&own.triangles)).collect();
+        let mut across = across(&places, &lists);
+        let found = mesh.primitives.iter().enumerate().filter_map(|(primitive, own)| {
+            let number = own.versions().position(|(own, _)| own == *ratio)?;
+            Some(Version { primitive, number, across: std::mem::take(&mut across[primitive]) })
+        });
+        found.collect::<Vec<_>>()
+    };
+    ratios.iter().flat_map(of_ratio).collect()
+}
+
+/// Where the vertices of a mesh are.
+struct Places {
+    /// Of each primitive's first vertex, counted through all of them.
+    first: Vec<u32>,
+    positions: Vec<Vec3>,
+    /// Of each vertex: the same number for all at one place.
+    of: Vec<u32>,
+    /// The mesh's longest side.
+    size: f64,
+}
+
+impl Places {
+    fn new(mesh: &Mesh) -> Self {
+        let positions: Vec<Vec3> = mesh.primitives.iter().flat_map(|own| &own.positions).copied().collect();
+        let starts = mesh.primitives.iter().scan(0, |next, own: &Primitive| {
+            let first = *next;
+            *next += own.positions.len() as u32;
+            Some(first)
+        });
+        let mut known = HashMap::new();
+        let number = |p: &Vec3| {
+            let next = known.len() as u32;
+            // -0 is 0.
+            *known.entry((*p + 0.0).to_array().map(f32::to_bits)).or_insert(next)
+        };
+        let of = positions.iter().map(number).collect();
+        let low = positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
+        let high = positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
+        let size = f64::from((high - low).max_element());
+        Self { first: starts.collect(), positions, of, size }
+    }
+}
+
+/// A triangle's way along an edge: the places of its ends, the lower first, and the edge's number among all.
+type Run = ([u32; 2], u32);
+
+/// What lies across each edge of the triangles of each primitive.
+fn across(places: &Places, lists: &[&[[u32; 3]]]) -> Vec<Vec<[Across; 3]>> {
+    let first = |primitive: usize| places.first[primitive];
+    let corners: Vec<[u32; 3]> = lists
+        .iter()
+        .enumerate()
+        .flat_map(|(primitive, list)| list.iter().map(move |corners| corners.map(|c| first(primitive) + c)))
+        .collect();
+    let mut found = vec![[Across::BORDER; 3]; corners.len()];
+    let sides = Sides { places, corners: &corners, ends: ends(lists) };
+    let runs: Vec<Run> = corners.par_iter().enumerate().flat_map_iter(|(i, own)| runs(i, own, &places.of)).collect();
+    let lone = sides.meet(runs, &mut found);
+    // Seams whose two sides were computed apart.
+    let welded = weld(&sides, &lone);
+    let again = lone.into_iter().map(|(ends, side)| (ends.map(|end| welded.get(&end).copied().unwrap_or(end)), side));
+    let again = again.map(|([a, b], side)| ([a.min(b), a.max(b)], side)).filter(|([a, b], _)| a != b);
+    sides.meet(again.collect(), &mut found);
+    let mut rest = &found[..];
+    let own = |list: &&[[u32; 3]]| {
+        let (own, others) = rest.split_at(list.len());
+        rest = others;
+        own.to_vec()
+    };
+    lists.iter().map(own).collect()
+}
+
+fn runs(triangle: usize, corners: &[u32; 3], places: &[u32]) -> impl Iterator<Item = Run> + use<> {
+    let [a, b, c] = corners.map(|corner| places[corner as usize]);
+    let sides = [[a, b], [b, c], [c, a]].into_iter().enumerate();
+    let sides = sides.filter(|(_, [from, to])| from != to);
+    sides.map(move |(side, [from, to])| ([from.min(to), from.max(to)], 3 * triangle as u32 + side as u32))
+}
+
+/// The number after the last triangle of each primitive.
+fn ends(lists: &[&[[u32; 3]]]) -> Vec<u32> {
+    lists
+        .iter()
+        .scan(0, |end, list| {
+            *end += list.len() as u32;
+            Some(*end)
+        })
+        .collect()
+}
+
+/// The edges of all triangles of a mesh: number 3 t + i is the i-th of triangle t.
+struct Sides<'a> {
+    places: &'a Places,
+    /// Vertices, counted through all primitives.
+    corners: &'a [[u32; 3]],
+    /// The number after the last triangle of each primitive.
+    ends: Vec<u32>,
+}
+
+impl Sides<'_> {
+    /// Says what lies across the edges along which several triangles run; returns the others.
+    fn meet(&self, mut runs: Vec<Run>, found: &mut [[Across; 3]]) -> Vec<Run> {
+        runs.par_sort_unstable();
+        let mut lone = Vec::new();
+        for at_edge in runs.chunk_by(|a, b| a.0 == b.0) {
+            if let [only] = at_edge {
+                lone.push(*only);
+                continue;
+            }
+            for (place, (_, side)) in at_edge.iter().enumerate() {
+                let near = if at_edge.len() <= MOST_AT_AN_EDGE { 0 } else { place.saturating_sub(MOST_AT_AN_EDGE / 2) };
+                let others =
+                    at_edge[near..].iter().take(MOST_AT_AN_EDGE).map(|run| run.1).filter(|other| other != side);
+                found[(side / 3) as usize][(side % 3) as usize] = self.across(*side, others);
+            }
+        }
+        lone
+    }
+
+    /// Of several triangles across an edge the one that best goes on with the surface.
+    fn across(&self, side: u32, others: impl Iterator<Item = u32>) -> Across {
+        let (mut best, mut is_feature) = (None, false);
+        for other in others {
+            let turn = self.turn(side, other);
+            is_feature |= !self.is_flat(side, other) || self.primitive(side) != self.primitive(other);
+            if best.is_none_or(|(known, _)| turn < known) {
+                best = Some((turn, other));
+            }
+        }
+        match best {
+            // Where it folds back there is an end, flat as it is.
+            Some((turn, other)) => Across::new(self.opposite(other), is_feature || turn >= 0.0),
+            None => Across::BORDER,
+        }
+    }
+
+    fn primitive(&self, side: u32) -> usize {
+        self.ends.partition_point(|end| *end <= side / 3)
+    }
+
+    /// The vertex of the edge's triangle that is not on it.
+    fn opposite(&self, side: u32) -> u32 {
+        self.corners[(side / 3) as usize][((side + 2) % 3) as usize]
+    }
+
+    fn point(&self, vertex: u32) -> Vec3 {
+        self.places.positions[vertex as usize]
+    }
+
+    /// The edge's ends, and the corner opposite.
+    fn points(&self, side: u32) -> [Vec3; 3] {
+        let own = self.corners[(side / 3) as usize];
+        [0, 1, 2].map(|step| self.point(own[(side as usize % 3 + step) % 3]))
+    }
+
+    /// The cosine between the ways in which two triangles leave their edge: -1 where one goes on with the other.
+    fn turn(&self, side: u32, other: u32) -> f32 {
+        let away = |[a, b, c]: [Vec3; 3]| {
+            let along = (b - a).normalize_or_zero();
+            ((c - a) - along * along.dot(c - a)).normalize_or_zero()
+        };
+        away(self.points(side)).dot(away(self.points(other)))
+    }
+
+    /// Whether two triangles at an edge lie in one plane: a sliver lies in any that it is near to.
+    fn is_flat(&self, side: u32, other: u32) -> bool {
+        let lies_in = |[a, b, c]: [Vec3; 3], p: Vec3| {
+            let (normal, away) = ((b - a).cross(c - a).normalize_or_zero(), p - a);
+            let largest = [a, b, c, p].map(|p| p.abs().max_element()).into_iter().fold(0.0, f32::max);
+            let across = away - (b - a) * (away.dot(b - a) / (b - a).length_squared().max(f32::MIN_POSITIVE));
+            normal.dot(away).abs() <= (FLAT * across.length()).max(ROUNDING * largest)
+        };
+        let (own, others) = (self.points(side), self.points(other));
+        lies_in(own, others[2]) || lies_in(others, own[2])
+    }
+}
+
+/// The places at the ends of some runs that are nearly one, with the number of the first of them.
+fn weld(sides: &Sides, lone: &[Run]) -> HashMap<u32, u32> {
+    let places = sides.places;
+    let mut ends: Vec<(u32, u32)> = lone
+        .iter()
+        .flat_map(|(_, side)| {
+            let own = sides.corners[(side / 3) as usize];
+            [own[(side % 3) as usize], own[((side + 1) % 3) as usize]]
+        })
+        .map(|vertex| (places.of[vertex as usize], vertex))
+        .collect();
+    ends.sort_unstable();
+    ends.dedup_by_key(|(place, _)| *place);
+    let reach = WELD * places.size;
+    // Cells much larger than the reach: most points are near to one of them alone.
+    let cell_of = |p: glam::DVec3| (p / (16.0 * reach).max(f64::MIN_POSITIVE)).floor().as_i64vec3();
+    let mut cells: HashMap<I64Vec3, Vec<(u32, glam::DVec3)>> = HashMap::new();
+    let mut welded = HashMap::new();
+    for (place, vertex) in ends {
+        let p = sides.point(vertex).as_dvec3();
+        let (low, high) = (cell_of(p - reach), cell_of(p + reach));
+        let near = (low.x..=high.x)
+            .flat_map(|x| (low.y..=high.y).flat_map(move |y| (low.z..=high.z).map(move |z| I64Vec3::new(x, y, z))));
+        let mut known = near.filter_map(|cell| cells.get(&cell)).flatten();
+        match known.find(|(_, other)| other.distance(p) <= reach) {
+            Some((first, _)) => _ = welded.insert(place, *first),
+            None => cells.entry(cell_of(p)).or_default().push((place, p)),
+        }
+    }
+    welded
+}
