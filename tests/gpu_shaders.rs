@@ -35,6 +35,7 @@ const LITTLE: Needs = Needs {
     hidden_lines: false,
     channels: 0,
     screen: false,
+    in_planes: false,
 };
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const TWO_WORDS_OF_LAYERS: Needs = Needs { layers: true, ..TWO_WORDS };
@@ -62,6 +63,7 @@ const MOST: Needs = Needs {
     hidden_lines: true,
     channels: 3,
     screen: true,
+    in_planes: true,
 };
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 21;

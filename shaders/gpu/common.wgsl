@@ -7,7 +7,7 @@
 // surface (`GLASS`) or one with a line where it meets the scene (`CONTACT`), something may be seen through something else
 // (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
-// (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`). `CHANNELS`: how many numbers at vertices filters
+// (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`); whether triangles lie in planes with others (`IN_PLANES`). `CHANNELS`: how many numbers at vertices filters
 // read, at least 1.
 // Positions are relative to the eye, along the world's axes, unless a name says otherwise.
 
@@ -135,6 +135,8 @@ struct Item {
     ratio: f32,
     // How far versions of it may lie from each other.
     spread: f32,
+    // What of its triangles lies in planes with others, in `lens_words`, or NONE: see `coincident.wgsl`.
+    in_plane: u32,
     // What lies across the edges of its triangles, in `numbers`, or NONE.
     across: u32,
     masks: array<u32, 6u * WORDS>,

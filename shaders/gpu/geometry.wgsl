@@ -77,7 +77,12 @@ struct Meeting {
 
 fn meeting(item: u32, triangle: u32, ray: PixelRay) -> Meeting {
     let t = fetch_triangle(item, triangle);
-    return Meeting(t, surface_hit(ray, t));
+    var hit = surface_hit(ray, t);
+    let in_plane = in_plane_at(item, triangle);
+    if IN_PLANES && in_plane != NONE {
+        hit.depth = in_plane_depth(in_plane, ray, hit.depth);
+    }
+    return Meeting(t, hit);
 }
 
 // The hit of a ray with a triangle that it is known to meet. Seen nearly edge on, the depth stays within the corners'.

@@ -23,15 +23,23 @@ pub fn item_stride(words: u32, channels: u32) -> u64 {
 }
 
 impl ItemData {
-    /// `words`: of a set of lenses; `cuts`: of each instance.
-    pub fn new(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: u32, cuts: &[CutWords]) -> Self {
+    /// `words`: of a set of lenses; `cuts`, `in_planes`: of each instance.
+    pub fn new(
+        scene: &Scene,
+        plan: &Plan,
+        uploaded: &SceneData,
+        words: u32,
+        cuts: &[CutWords],
+        in_planes: &[u32],
+    ) -> Self {
         let mut data = Self::default();
-        for (instance, cut) in plan.instances.iter().zip(cuts) {
+        for ((instance, cut), in_plane) in plan.instances.iter().zip(cuts).zip(in_planes) {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
             let CutWords { body, caps, is_open } = *cut;
-            let mut record = ItemRecord { first_step, body, caps, ..record(scene, plan, instance, uploaded) };
+            let mut record =
+                ItemRecord { first_step, body, caps, in_plane: *in_plane, ..record(scene, plan, instance, uploaded) };
             record.flags |= if is_open { ITEM_OPEN } else { 0 };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&record));
@@ -87,6 +95,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         node: item.node as u32,
         ratio: item.ratio,
         spread: instance.spread as f32,
+        in_plane: NONE,
         across: range.across,
     }
 }

@@ -62,6 +62,8 @@ pub struct Needs {
     pub channels: u32,
     /// Some filter works on the finished picture.
     pub screen: bool,
+    /// Some triangles lie over others in one plane.
+    pub in_planes: bool,
 }
 
 impl Needs {
@@ -102,6 +104,7 @@ impl Needs {
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
             channels: plan.channels.len() as u32,
             screen: !plan.screen.is_empty(),
+            in_planes: !plan.coincident.is_empty(),
         }
     }
 
@@ -166,6 +169,7 @@ impl Needs {
             soft: false,
             translucent: false,
             channels: 0,
+            in_planes: false,
             ..self.without_shading()
         };
         if !self.soft {
@@ -222,6 +226,7 @@ impl Needs {
             ("QUANTITIES", self.quantities),
             ("HIDDEN_LINES", self.hidden_lines),
             ("SCREEN", self.screen),
+            ("IN_PLANES", self.in_planes),
         ];
         let filters = FILTERS.iter().enumerate().map(|(number, filter)| {
             let (name, has) = (filter.name.to_uppercase(), self.filters >> number & 1 != 0);

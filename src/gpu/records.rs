@@ -112,6 +112,8 @@ pub struct ItemRecord {
     pub ratio: f32,
     /// How far versions of it may lie from each other.
     pub spread: f32,
+    /// Among the words of lenses, or `u32::MAX`: what of its triangles lies in planes with others.
+    pub in_plane: u32,
     /// Where what lies across the edges of its triangles starts, or `u32::MAX`.
     pub across: u32,
 }

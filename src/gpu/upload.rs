@@ -43,7 +43,16 @@ pub struct SceneData {
     pub positions: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub bind_group: wgpu::BindGroup,
-    primitives: HashMap<Place, (Range, Vec<Cluster>)>,
+    primitives: HashMap<Place, Uploaded>,
+}
+
+/// A version of a primitive.
+#[derive(Debug)]
+struct Uploaded {
+    range: Range,
+    clusters: Vec<Cluster>,
+    /// The number of each drawn triangle in the primitive.
+    order: Vec<u32>,
 }
 
 /// The shared buffers while they are filled.
@@ -58,38 +67,34 @@ struct Lists {
 impl Lists {
     /// Adds a mesh: the versions of its primitives, by their numbers and ratios. `wanted`: the names of the numbers at
     /// vertices that filters read.
-    fn add_mesh(&mut self, mesh: &Mesh, wanted: &BTreeMap<String, [f32; 2]>) -> Vec<(usize, f32, Range, Vec<Cluster>)> {
+    fn add_mesh(&mut self, mesh: &Mesh, wanted: &BTreeMap<String, [f32; 2]>) -> Vec<(usize, f32, Uploaded)> {
         // Of the vertices of all primitives, one after the other: where a copy of each stands.
         let mut copies = Vec::new();
         let mut added = Vec::new();
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             for (version, (ratio, triangles)) in primitive.versions().enumerate() {
                 let whole = (version == 0).then_some(&mut copies);
-                let (range, clusters) = self.add(primitive, triangles, wanted, whole);
-                added.push((number, ratio, range, clusters));
+                added.push((number, ratio, self.add(primitive, triangles, wanted, whole)));
             }
         }
-        for (number, ratio, range, _) in &mut added {
-            range.across = self.across(mesh.primitives[*number].across_of(*ratio), range, &copies);
+        for (number, ratio, uploaded) in &mut added {
+            let across = mesh.primitives[*number].across_of(*ratio);
+            uploaded.range.across = self.across(across, &uploaded.order, &copies);
         }
         added
     }
 
     /// What lies across the edges of triangles, in the order in which they are drawn.
-    fn across(&mut self, across: &[[Across; 3]], range: &Range, copies: &[u32]) -> u32 {
+    fn across(&mut self, across: &[[Across; 3]], order: &[u32], copies: &[u32]) -> u32 {
         if across.is_empty() {
             return NONE;
         }
         let start = self.numbers.len();
-        let first = range.first_number as usize;
         let word = |across: &Across| {
             let opposite = across.opposite().map_or(NO_VERTEX, |vertex| copies[vertex as usize].min(NO_VERTEX));
             opposite | if across.is_feature() { FEATURE } else { 0 }
         };
-        for triangle in first..first + across.len() {
-            let own = across[self.numbers[triangle] as usize].each_ref().map(word);
-            self.numbers.extend(own);
-        }
+        self.numbers.extend(order.iter().flat_map(|number| across[*number as usize].each_ref().map(word)));
         start as u32
     }
 
@@ -100,7 +105,7 @@ impl Lists {
         triangles: &[[u32; 3]],
         wanted: &BTreeMap<String, [f32; 2]>,
         copies: Option<&mut Vec<u32>>,
-    ) -> (Range, Vec<Cluster>) {
+    ) -> Uploaded {
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
@@ -122,8 +127,8 @@ impl Lists {
         }
         self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
-        self.numbers.extend(numbers);
-        (range, clusters)
+        self.numbers.extend_from_slice(&numbers);
+        Uploaded { range, clusters, order: numbers }
     }
 
     fn values(
@@ -155,8 +160,8 @@ impl SceneData {
         let mut primitives = HashMap::new();
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
-                for (p, ratio, range, clusters) in lists.add_mesh(mesh, &scene.value_ranges) {
-                    primitives.insert((m, i, p, ratio.to_bits()), (range, clusters));
+                for (p, ratio, uploaded) in lists.add_mesh(mesh, &scene.value_ranges) {
+                    primitives.insert((m, i, p, ratio.to_bits()), uploaded);
                 }
             }
         }
@@ -191,8 +196,17 @@ impl SceneData {
 
     /// Where an item's version of its primitive lies, and its clusters.
     pub fn primitive(&self, item: &Item) -> (&Range, &[Cluster]) {
-        let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive, item.ratio.to_bits())];
+        let Uploaded { range, clusters, .. } = self.uploaded(item);
         (range, clusters)
+    }
+
+    /// The number in its primitive of each of an item's drawn triangles.
+    pub fn order(&self, item: &Item) -> &[u32] {
+        &self.uploaded(item).order
+    }
+
+    fn uploaded(&self, item: &Item) -> &Uploaded {
+        &self.primitives[&(item.model, item.mesh, item.primitive, item.ratio.to_bits())]
     }
 }
 

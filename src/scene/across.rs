@@ -305,3 +305,85 @@ fn weld(sides: &Sides, lone: &[Run]) -> HashMap<u32, u32> {
     }
     welded
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(primitives: &[&[[Vec3; 3]]]) -> Mesh {
+        let primitive = |own: &&[[Vec3; 3]]| Primitive {
+            positions: own.concat(),
+            triangles: (0..own.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+            ..Primitive::default()
+        };
+        Mesh { name: String::new(), primitives: primitives.iter().map(primitive).collect() }
+    }
+
+    fn found(mesh: &Mesh) -> Vec<Vec<[Across; 3]>> {
+        versions(mesh).into_iter().map(|version| version.across).collect()
+    }
+
+    fn count(all: &[Vec<[Across; 3]>], counts: impl Fn(Across) -> bool) -> usize {
+        all.iter().flatten().flatten().filter(|across| counts(**across)).count()
+    }
+
+    /// A quad with corners of its own for each triangle.
+    fn quad([a, b, c, d]: [Vec3; 4]) -> [[Vec3; 3]; 2] {
+        [[a, b, c], [a, c, d]]
+    }
+
+    fn square(z: f32) -> [[Vec3; 3]; 2] {
+        quad([Vec3::new(0.0, 0.0, z), Vec3::new(1.0, 0.0, z), Vec3::new(1.0, 1.0, z), Vec3::new(0.0, 1.0, z)])
+    }
+
+    #[test]
+    fn a_square_has_four_borders_and_a_flat_diagonal() {
+        let mesh = mesh(&[&square(0.0)]);
+        let all = found(&mesh);
+        assert_eq!(count(&all, |across| across == Across::BORDER), 4);
+        let diagonal = all[0][0][2];
+        assert!(!diagonal.is_feature());
+        assert_eq!(diagonal.opposite().and_then(|vertex| mesh.vertex(vertex)), Some(Vec3::Y));
+    }
+
+    #[test]
+    fn a_cube_has_edges_and_diagonals_and_no_border() {
+        let corner = |i: usize| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces: Vec<[Vec3; 3]> = faces.iter().flat_map(|face| quad(face.map(corner))).collect();
+        let all = found(&mesh(&[&faces]));
+        assert_eq!(count(&all, |across| across.opposite().is_none()), 0);
+        assert_eq!((count(&all, Across::is_feature), count(&all, |across| !across.is_feature())), (24, 12));
+    }
+
+    #[test]
+    fn where_another_primitive_begins_is_an_edge() {
+        let [one, other] = square(0.0);
+        let all = found(&mesh(&[&[one], &[other]]));
+        assert_eq!(count(&all, |across| across.opposite().is_some() && across.is_feature()), 2);
+    }
+
+    #[test]
+    fn seams_that_were_computed_apart_are_joined() {
+        let [one, mut other] = square(0.0);
+        other[1] += Vec3::splat(3e-7);
+        assert_eq!(count(&found(&mesh(&[&[one, other]])), |across| across == Across::BORDER), 4);
+        other[1] += Vec3::splat(1e-4);
+        assert_eq!(count(&found(&mesh(&[&[one, other]])), |across| across == Across::BORDER), 6);
+    }
+
+    #[test]
+    fn a_sheet_with_two_sides_ends_where_they_meet() {
+        let [one, other] = square(0.0);
+        let back = |[a, b, c]: [Vec3; 3]| [a, c, b];
+        let all = found(&mesh(&[&[one, other, back(one), back(other)]]));
+        assert_eq!((count(&all, Across::is_feature), count(&all, |across| !across.is_feature())), (8, 4));
+    }
+
+    #[test]
+    fn very_many_triangles_at_one_edge_take_no_time() {
+        let turn = |i: usize| Vec3::new((i as f32).cos(), (i as f32).sin(), 0.5);
+        let all: Vec<[Vec3; 3]> = (0..50_000).map(|i| [Vec3::ZERO, Vec3::Z, turn(i)]).collect();
+        assert_eq!(found(&mesh(&[&all]))[0].len(), 50_000);
+    }
+}

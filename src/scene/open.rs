@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
-use super::{MaterialRecord, Model, TextureSet, lens_meshes};
+use super::{CoincidentCache, MaterialRecord, Model, TextureSet, lens_meshes};
 use crate::custom::Custom;
 use crate::lens::LensMeshes;
 use crate::spec::{At, Filter, Quantity, Spec, suggest};
@@ -31,6 +31,8 @@ pub struct Scene {
     pub custom_filters: BTreeMap<PathBuf, Arc<Custom>>,
     /// The fitted range of each vertex value that a filter shows.
     pub value_ranges: BTreeMap<String, [f32; 2]>,
+    /// To be replaced with an empty one where a mesh is changed in place.
+    pub coincident_cache: CoincidentCache,
     /// What lies across the edges of triangles has been found.
     pub has_edges: bool,
     /// The solids of `mesh` shapes.

@@ -89,7 +89,12 @@ const SHOW: &[Param] = &[
 const LOD: &[Param] = &[param("ratio", Number(NumberRange::closed(0.001, 1.0)), Num(0.1), "of triangles kept")];
 const MAGNIFY: &[Param] = &[
     param("factor", Number(NumberRange::POSITIVE), Num(2.0), "how many times larger"),
-    param("center", Vector, Meaning("the lens's centre"), "fixed point, in the shape's space"),
+    param(
+        "center",
+        Vector,
+        Meaning("the lens's centre; of a flat lens the line of sight to it"),
+        "fixed point, in the shape's space",
+    ),
 ];
 const DISPLACE: &[Param] = &[
     param("nodes", Patterns, EVERYTHING, "nodes that move"),
