@@ -22,11 +22,13 @@ fn main() {
     let scene = Scene::new(vec![surface(TRIANGLES)], Vec::new());
     let names = [("no lens", 0), ("1 sphere", 1), ("8 spheres", 8)];
     let plans = names.map(|(_, lenses)| Plan::new(&spec(lenses), &scene).expect("valid"));
-    let renderers = plans.each_ref().map(|plan| Renderer::new(&scene, plan));
+    let renderers = plans.each_ref().map(|plan| Renderer::new(&scene, plan).expect("a plan of this scene"));
     let mut contenders: Vec<Contender<Infallible>> = Vec::new();
     for (i, (name, _)) in names.into_iter().enumerate() {
         let renderer = &renderers[i];
-        contenders.push(timed(name, move || std::hint::black_box(renderer.render(false, &|_| ())).pixels.len()));
+        contenders.push(timed(name, move || {
+            std::hint::black_box(renderer.render(false, &|_| ()).expect("a frame")).pixels.len()
+        }));
     }
     contenders.push(timed(VISIBILITY, || std::hint::black_box(renderers[0].depths()).len()));
     contenders.push(timed("set up", || {

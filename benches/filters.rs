@@ -40,7 +40,8 @@ fn main() -> Result<(), String> {
     let adapter = gpu::choose_named(None).map_err(|error| error.to_string())?;
     let device = gpu::Headless::new(&adapter).map_err(|error| error.to_string())?;
     let renderer = RefCell::new(device.renderer(&scene).map_err(|error| error.to_string())?);
-    let on_cpu: Vec<cpu::Renderer> = plans.iter().map(|plan| cpu::Renderer::new(&scene, plan)).collect();
+    let on_cpu: Vec<cpu::Renderer> =
+        plans.iter().map(|plan| cpu::Renderer::new(&scene, plan).expect("a plan of this scene")).collect();
     let mut contenders = Vec::new();
     for (plan, name) in plans.iter().zip(&names) {
         contenders.push(on_gpu(&device, &renderer, &scene, plan, name));
@@ -48,7 +49,7 @@ fn main() -> Result<(), String> {
     for (renderer, name) in on_cpu.iter().zip(&names) {
         contenders.push(Contender::new(*name, move || {
             let start = Instant::now();
-            std::hint::black_box(renderer.render(false, &|_| ()));
+            std::hint::black_box(renderer.render(false, &|_| ()).expect("a frame"));
             Ok(Sample::from(start.elapsed().as_secs_f64()))
         }));
     }

@@ -1,8 +1,11 @@
-//! The one error of the input side: what is wrong, where, and what to do.
+//! The error of the input side: what is wrong, where, and what to do; and several of them.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
+use crate::limits::MAX_SHOWN;
+use crate::printable;
 use crate::spec::Source;
 
 /// Something in a spec or a model is wrong. `Display` is a single paragraph that names the place;
@@ -17,11 +20,14 @@ pub struct InputError {
     pub source_text: Option<Source>,
     /// Byte ranges with a few words each; the first is the place.
     pub labels: Vec<(Range<usize>, String)>,
+    /// What else is wrong, in the order of the file.
+    pub others: Vec<InputError>,
 }
 
 impl InputError {
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), help: None, source_text: None, labels: Vec::new() }
+        let message = printable::message(&message.into()).into_owned();
+        Self { message, help: None, source_text: None, labels: Vec::new(), others: Vec::new() }
     }
 
     /// An error at a place of a spec file.
@@ -30,7 +36,7 @@ impl InputError {
     }
 
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(printable::message(&help.into()).into_owned());
         self
     }
 
@@ -65,10 +71,101 @@ impl fmt::Display for InputError {
             }
             write!(f, ": ")?;
         }
-        write!(f, "{}", self.message)?;
+        write!(f, "{}", shortened(&self.message))?;
         if let Some(help) = &self.help {
-            write!(f, " ({help})")?;
+            write!(f, " ({})", shortened(help))?;
         }
-        Ok(())
+        match self.others.len() {
+            0 => Ok(()),
+            more => write!(f, " (and {more} more)"),
+        }
+    }
+}
+
+/// What is wrong with things that do not depend on each other.
+#[derive(Debug, Default)]
+pub(crate) struct Faults(Vec<InputError>);
+
+impl Faults {
+    /// More are not kept: nobody reads them.
+    const MOST: usize = 1000;
+
+    /// Keeps a fault, and those behind it; each once.
+    pub fn note(&mut self, error: InputError) {
+        let InputError { others, .. } = &error;
+        let (others, first) = (others.clone(), InputError { others: Vec::new(), ..error });
+        for error in std::iter::once(first).chain(others) {
+            let is_known = |known: &InputError| (&known.message, &known.labels) == (&error.message, &error.labels);
+            if self.0.len() < Self::MOST && !self.0.iter().any(is_known) {
+                self.0.push(error);
+            }
+        }
+    }
+
+    /// The value, or `None` where its fault was noted.
+    pub fn take<T>(&mut self, result: Result<T, InputError>) -> Option<T> {
+        result.map_err(|error| self.note(error)).ok()
+    }
+
+    /// All of them as one, the first of the file first.
+    pub fn finish(mut self) -> Result<(), InputError> {
+        self.0.sort_by_key(|error| error.labels.first().map(|(span, _)| span.start));
+        let mut all = self.0.into_iter();
+        let Some(first) = all.next() else { return Ok(()) };
+        Err(InputError { others: all.collect(), ..first })
+    }
+}
+
+/// A text as messages show it: words that are much longer than any name are cut.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    if text.split_whitespace().all(|word| word.len() <= MAX_SHOWN) {
+        return Cow::Borrowed(text);
+    }
+    let mut short = String::new();
+    for piece in text.split_inclusive(char::is_whitespace) {
+        let count = piece.chars().count();
+        if count <= MAX_SHOWN {
+            short.push_str(piece);
+            continue;
+        }
+        // What stands behind the name, such as a quote, stays.
+        let tail: String = piece.chars().skip(count - 16).collect();
+        short.extend(piece.chars().take(MAX_SHOWN / 2));
+        short.push_str(&format!("... ({count} characters) ...{tail}"));
+    }
+    Cow::Owned(short)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_are_one_error_in_the_order_of_the_file() {
+        let source = Source::new("spec.toml", "abcdefgh");
+        let at = |place: usize| InputError::at(&source, place..place + 1, format!("fault {place}"));
+        let mut inner = Faults::default();
+        [7, 3].into_iter().for_each(|place| inner.note(at(place)));
+        let mut faults = Faults::default();
+        assert_eq!(faults.take(Ok(1)), Some(1));
+        assert_eq!(faults.take(Err::<(), _>(at(5))), None);
+        faults.note(at(5));
+        assert_eq!(faults.take(inner.finish()), None);
+        let error = faults.finish().expect_err("three faults");
+        let messages: Vec<&str> = error.others.iter().map(|error| error.message.as_str()).collect();
+        assert_eq!((error.message.as_str(), messages), ("fault 3", vec!["fault 5", "fault 7"]));
+        assert_eq!(error.to_string(), "spec.toml:1: fault 3 (and 2 more)");
+        assert!(Faults::default().finish().is_ok());
+    }
+
+    #[test]
+    fn only_words_longer_than_any_name_are_cut() {
+        let plain = "no lens matches `cut-*`, however long the sentence is ".repeat(40);
+        assert_eq!(shortened(&plain), plain);
+        let long = format!("no lens matches `{}é`, so it is", "x".repeat(200_000));
+        let short = shortened(&long);
+        assert!(short.len() < 2 * MAX_SHOWN, "{short}");
+        assert!(short.starts_with("no lens matches `xxx") && short.ends_with("xé`, so it is"), "{short}");
+        assert!(short.contains("200004 characters"), "{short}");
     }
 }

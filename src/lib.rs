@@ -10,14 +10,18 @@ pub mod custom;
 pub mod debug_view;
 mod error;
 pub mod explain;
+mod file_kind;
 pub mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod lens;
+pub mod limits;
 pub mod output;
 pub mod pick;
+pub mod pieces;
 pub mod pixel;
 pub mod plan;
+mod printable;
 pub mod scene;
 pub mod spec;
 pub mod view;

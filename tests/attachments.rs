@@ -10,7 +10,7 @@ use lenspeel::scene::Scene;
 use lenspeel::spec::Spec;
 
 /// One of each kind, about the origin of its space, all different from every side.
-const SHAPES: [&str; 12] = [
+const SHAPES: [&str; 14] = [
     "sphere = { center = [0.1, 0, 0], radius = 0.4 }",
     "ellipsoid = { center = [0, 0.1, 0], radii = [0.5, 0.3, 0.4], rotation = [0, 20, 40] }",
     "box = { min = [-0.4, -0.3, -0.3], max = [0.5, 0.3, 0.4] }",
@@ -20,6 +20,8 @@ const SHAPES: [&str; 12] = [
     "polytope = { planes = [[1, 1, 0, 0.4], [-1, 1, 0, 0.3], [0, -1, 0, 0.4], [0, 0, 1, 0.4], [0, 0, -1, 0.4]] }",
     "hull = { points = [[0, 0, 0.5], [0.4, 0, 0], [0, 0.6, 0], [-0.5, 0, 0], [0, -0.3, 0], [0, 0, -0.4]] }",
     "flat = { corners = [[-0.4, -0.3, 0], [0.5, -0.3, 0], [0.3, 0.4, 0], [-0.3, 0.3, 0]], depth = 0.5 }",
+    "halfspace = { point = [0.1, 0.1, 0], normal = [1, 2, 0.5] }",
+    "slab = { point = [0, 0.1, 0], normal = [1, -2, 0.5], thickness = 0.3 }",
     "union = [{ sphere = { center = [-0.3, 0, 0], radius = 0.3 } }, { box = { min = [0.1, -0.2, -0.3], max = [0.5, 0.4, 0.2] } }]",
     "difference = [{ box = { min = [-0.5, -0.4, -0.4], max = [0.5, 0.4, 0.4] } }, { sphere = { center = [0.1, 0.1, 0.3], radius = 0.3 } }]",
     "mesh = { file = \"solids.glb\", node = \"letter\", convex = \"decompose\" }",
@@ -71,7 +73,7 @@ fn render(shape: &str, attach: &str, place: &Place) -> Frame {
     let spec = Spec::parse(&text, "lens.toml", &models).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let scene = Scene::open(&spec).expect("the model is part of the project");
     let plan = Plan::new(&spec, &scene).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    cpu::Renderer::new(&scene, &plan).render(true, &|_| ())
+    cpu::Renderer::new(&scene, &plan).and_then(|cpu| cpu.render(true, &|_| ())).expect("the CPU draws it")
 }
 
 fn maps(frame: &Frame) -> &Aovs {

@@ -43,7 +43,7 @@ fn render(camera: &str, shape: &str, rest: &str, contact: f64) -> (Frame, View) 
     let spec = Spec::parse(&text, "contact.toml", &models).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let scene = Scene::open(&spec).expect("the model is part of the project");
     let plan = Plan::new(&spec, &scene).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    (cpu::Renderer::new(&scene, &plan).render(true, &|_| ()), plan.view)
+    (cpu::Renderer::new(&scene, &plan).and_then(|cpu| cpu.render(true, &|_| ())).expect("the CPU draws it"), plan.view)
 }
 
 fn sphere() -> String {

@@ -122,7 +122,7 @@ fn example(name: &str) -> Custom {
 }
 
 fn words(custom: &Custom, given: &[(&str, Value)]) -> Vec<u32> {
-    let source = Source { name: "spec.toml".into(), text: "".into() };
+    let source = Source::new("spec.toml", "");
     let given: Vec<Given> =
         given.iter().map(|(name, value)| Given { name: (*name).into(), span: 0..0, value: value.clone() }).collect();
     custom.values(&source, &given).expect("values of the right types")

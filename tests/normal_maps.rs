@@ -21,7 +21,9 @@ fn every_panel_has_the_same_bump() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("lens-specs/light/normal-maps.toml");
     let text = std::fs::read_to_string(&path).expect("the spec is there");
     let opened = open::open(&path, &text, |_| ()).expect("the spec is good").1;
-    let frame = cpu::Renderer::new(&opened.scene, &opened.plan).render(true, &|_| ());
+    let frame = cpu::Renderer::new(&opened.scene, &opened.plan)
+        .and_then(|cpu| cpu.render(true, &|_| ()))
+        .expect("the CPU draws it");
     assert_eq!(frame.size, [160, 80]);
     let normals = &frame.aovs.as_ref().expect("AOVs were asked for").normals;
     let mut compared = 0;

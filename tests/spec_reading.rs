@@ -60,7 +60,7 @@ fn lenses() {
     assert_eq!(shell.filters[1].value, tint);
     let Shape::Box { center, size, .. } = probe.shape.value else { panic!("a box") };
     assert_eq!((center, size), ([0.5, 1.0, 1.5], [1.0, 2.0, 3.0]));
-    let Filter::Show(ShowWhat::Alternate(name)) = &cut.filters[0].value else { panic!("show") };
+    let Filter::Show(ShowWhat::Alternate { name, .. }) = &cut.filters[0].value else { panic!("show") };
     assert_eq!(name.value, "bones");
     assert!(!cut.enabled && cut.priority == -3);
     assert_eq!([probe, cut].map(|lens| lens.glass.map(|glass| glass.contact)), [Some(2.0), Some(0.0)]);

@@ -68,12 +68,22 @@ fn planned(case: &Case, shape: Option<&str>) -> (Scene, Plan) {
 }
 
 fn depths((scene, plan): &(Scene, Plan)) -> Vec<f32> {
-    cpu::Renderer::new(scene, plan).render(true, &|_| ()).aovs.expect("they were asked for").depth
+    cpu::Renderer::new(scene, plan)
+        .and_then(|cpu| cpu.render(true, &|_| ()))
+        .expect("the CPU draws it")
+        .aovs
+        .expect("they were asked for")
+        .depth
 }
 
 /// How far versions of what is seen may lie from each other: at the rim of a part what lies behind it is seen in one of them.
 fn spreads((scene, plan): &(Scene, Plan)) -> Vec<f32> {
-    let instances = cpu::Renderer::new(scene, plan).render(true, &|_| ()).aovs.expect("they were asked for").instances;
+    let instances = cpu::Renderer::new(scene, plan)
+        .and_then(|cpu| cpu.render(true, &|_| ()))
+        .expect("the CPU draws it")
+        .aovs
+        .expect("they were asked for")
+        .instances;
     let spread = |instance: u32| plan.instances.get(instance as usize).map_or(0.0, |instance| instance.spread as f32);
     instances.into_iter().map(spread).collect()
 }
@@ -112,7 +122,11 @@ fn gaps_would_be_noticed() {
 fn the_whole_surface_ends_soon_after_the_boundary() {
     for case in &CASES {
         let (scene, plan) = planned(case, Some(case.shape));
-        let aovs = cpu::Renderer::new(&scene, &plan).render(true, &|_| ()).aovs.expect("they were asked for");
+        let aovs = cpu::Renderer::new(&scene, &plan)
+            .and_then(|cpu| cpu.render(true, &|_| ()))
+            .expect("the CPU draws it")
+            .aovs
+            .expect("they were asked for");
         let is_inside = |region: u32| aovs.table.get(region as usize).is_some_and(|region| !region.set.is_empty());
         let inside = aovs.instances.iter().zip(&aovs.regions).filter(|(_, region)| is_inside(**region));
         let (mut whole, mut simplified) = (0, 0);

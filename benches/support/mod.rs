@@ -49,6 +49,7 @@ pub fn model(name: &str, primitive: Primitive) -> Model {
         camera: None,
         light: None,
         drawn: true,
+        hidden: false,
     };
     let material =
         Material { base_color: [0.6, 0.62, 0.55, 1.0], metallic: 0.0, roughness: 0.7, ..Material::default() };

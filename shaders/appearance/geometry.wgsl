@@ -185,6 +185,12 @@ fn plane_steps(ray: PixelRay, depth: f32, normal: vec3f, least: f32) -> PlaneSte
     return PlaneSteps(right, down);
 }
 
+// World lengths that a pixel's step to the right and down span on the plane through `position` with `normal`.
+fn position_footprint(ray: PixelRay, position: vec3f, normal: vec3f) -> vec2f {
+    let steps = steps_at(ray, position, normal);
+    return vec2f(length(steps.right), length(steps.down));
+}
+
 // On the plane through `position`, which the ray meets there.
 fn steps_at(ray: PixelRay, position: vec3f, normal: vec3f) -> PlaneSteps {
     let depth = dot(position - ray.origin, ray.direction) / dot(ray.direction, ray.direction);

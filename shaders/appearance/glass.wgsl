@@ -33,7 +33,11 @@ fn inverse_depth_gradient(ray: PixelRay, n: vec3f, depth: f32) -> vec2f {
     return vec2f(along_x, along_y) / (depth * depth);
 }
 
-// Pixels from the silhouette of a convex volume, to first order: where the entry and the exit meet.
+// Beyond this depth a half-space has no end: the square of a depth must fit.
+const NO_END: f32 = 1e18;
+
+// Pixels from the silhouette of a convex volume, to first order: where the entry and the exit meet; of a half-space, the
+// horizon of its plane, where inverse depths are zero.
 // The inverse depths of a plane are linear over the picture; where entry and exit lie on one smooth
 // surface their difference falls like a square root, which doubles the distance.
 fn silhouette_distance(ray: PixelRay, entry: f32, entry_normal: vec3f, exit: f32, exit_normal: vec3f, smooth_join: u32) -> f32 {
@@ -42,8 +46,14 @@ fn silhouette_distance(ray: PixelRay, entry: f32, entry_normal: vec3f, exit: f32
     var gap = exit - entry;
     var slope = inverse_depth_gradient(ray, entry_normal, 1.0) - inverse_depth_gradient(ray, exit_normal, 1.0);
     if perspective {
-        gap = 1.0 / max(entry, 1e-20) - 1.0 / max(exit, 1e-20);
-        slope = inverse_depth_gradient(ray, entry_normal, entry) - inverse_depth_gradient(ray, exit_normal, exit);
+        gap = 1.0 / max(entry, 1e-20);
+        slope = inverse_depth_gradient(ray, entry_normal, entry);
+        if exit < NO_END {
+            gap -= 1.0 / max(exit, 1e-20);
+            slope -= inverse_depth_gradient(ray, exit_normal, exit);
+        }
+    } else if exit > NO_END || entry < -NO_END {
+        return NO_END;
     }
     let distance = gap / max(length(slope), 1e-20);
     return select(distance, 0.5 * distance, smooth_join != 0u);

@@ -1,5 +1,5 @@
 // Draws lines where what is seen breaks off: silhouettes, where the depth jumps; creases, where the normal turns; and the
-// borders between regions of lenses. `width` in pixels; `threshold` says what counts, from 0 (everything) to 1: a crease
+// borders between regions of lenses and between the caps of different nodes. `width` in pixels; `threshold` says what counts, from 0 (everything) to 1: a crease
 // turns the normal so far that its cosine falls by that much, and a silhouette jumps by a tenth of that share of the
 // picture's height. A line lies on the nearer of the two surfaces, within the lens.
 
@@ -16,7 +16,7 @@ struct Seen {
 }
 
 const BORDER_NONE: u32 = 0u;
-// Other lenses are around the neighbour.
+// Other lenses are around the neighbour, or it is the cap of another node.
 const BORDER_OF_REGION: u32 = 1u;
 // The filter does not act on the neighbour.
 const BORDER_OF_FILTER: u32 = 2u;

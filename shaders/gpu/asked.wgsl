@@ -57,13 +57,15 @@ fn part_holds(asked: AskedPart, ray: LensRay, depth: f32) -> bool {
 }
 
 fn mesh_holds(asked: AskedPart, ray: LensRay, depth: f32) -> bool {
-    var inside = false;
+    var around = Around(0, 0u);
     if asked.first != NONE {
         for (var i = asked.first; i < asked.end; i += 1u) {
             let crossing = projected_crossing(asked.part, ray.at, tiles[i]);
-            inside = inside != (crossing.found && !starts_boundary(depth, crossing.t));
+            if crossing.found && !starts_boundary(depth, crossing.t) {
+                around = also_crossed(around, mesh_word(asked.part, tiles[i], crossing.left));
+            }
         }
-        return inside;
+        return is_enclosed(around);
     }
     let line = mesh_line(asked.part, ray);
     var crossing = before_mesh();
@@ -72,7 +74,9 @@ fn mesh_holds(asked: AskedPart, ray: LensRay, depth: f32) -> bool {
         if !crossing.found {
             break;
         }
-        inside = inside != !starts_boundary(depth, crossing.t);
+        if !starts_boundary(depth, crossing.t) {
+            around = also_crossed(around, crossing.word);
+        }
     }
-    return inside;
+    return is_enclosed(around);
 }

@@ -91,6 +91,10 @@ fn closing(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32)
     found.maker = select(maker, NONE, found.boundary == NONE);
     found.around = behind.around;
     found.stack = behind.stack;
+    // It keeps the look that its maker gives it: lower lenses do not act on it, and a rule is above all lenses.
+    for (var w = 0u; w < WORDS; w += 1u) {
+        found.stack.words[w] &= ~word_below(min(maker, frame.lens_count), w);
+    }
     return found;
 }
 

@@ -89,8 +89,6 @@ struct Frame {
 
 const ITEM_TRANSLUCENT: u32 = 1u;
 const ITEM_ALTERNATE: u32 = 2u;
-// It may be cut, and is not closed by itself.
-const ITEM_OPEN: u32 = 4u;
 
 const MASK_SCOPE: u32 = 0u;
 const MASK_OBJECT: u32 = 1u;
@@ -135,6 +133,12 @@ struct Item {
     ratio: f32,
     // How far versions of it may lie from each other.
     spread: f32,
+    // Of one that may be cut: the first of those that enclose something only together with it.
+    group: u32,
+    // In `lens_words`, or NONE: the roles of its primitive's triangles, four a word, where not all are plain; and its lids,
+    // LID_WORDS each.
+    roles: u32,
+    lids: u32,
     // What of its triangles lies in planes with others, in `lens_words`, or NONE: see `coincident.wgsl`.
     in_plane: u32,
     // What lies across the edges of its triangles, in `numbers`, or NONE.
@@ -186,6 +190,8 @@ struct Lens {
 }
 
 const PART_FLAT: u32 = 1u;
+// Of a mesh: some of its pieces are told by parity.
+const PART_PARITY: u32 = 2u;
 
 // One solid of a lens volume, convex but for FORM_MESH: twin of `records::PartRecord`.
 struct Part {

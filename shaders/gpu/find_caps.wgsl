@@ -2,17 +2,41 @@
 // `cpu/pixel/caps.rs`.
 
 struct CutVarying {
-    @builtin(position) position: vec4f,
+    @invariant @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) item: u32,
     @location(1) depth: f32,
+    // In the order in which the item's are drawn.
+    @location(2) @interpolate(flat) triangle: u32,
+    // NONE: that of the triangle.
+    @location(3) @interpolate(flat) role: u32,
 }
 
 // Nothing is cut off behind, wherever the far plane is: what lies behind a boundary tells whether it is inside.
 @vertex
-fn cut_vertex(@location(0) local: vec3f, shown: Shown, @builtin(instance_index) item: u32) -> CutVarying {
+fn cut_vertex(
+    @location(0) local: vec3f,
+    shown: Shown,
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) item: u32,
+) -> CutVarying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    return CutVarying(clip_position(p, depth, 0.5), item, depth);
+    return CutVarying(clip_position(p, depth, 0.5), item, depth, vertex - shown.base_vertex, NONE);
+}
+
+// Words of a lid: its corners and its role.
+const LID_WORDS: u32 = 10u;
+
+@vertex
+fn lid_vertex(
+    shown: Shown,
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) item: u32,
+) -> CutVarying {
+    let at = items[item].lids + LID_WORDS * (vertex / 3u);
+    let p = shown_corner(lens_vector(at + 3u * (vertex % 3u)), shown);
+    let depth = dot(p, frame.forward.xyz);
+    return CutVarying(clip_position(p, depth, 0.5), item, depth, 0u, lens_words[at + LID_WORDS - 1u]);
 }
 
 @fragment
@@ -22,7 +46,20 @@ fn crossing(in: CutVarying, @builtin(front_facing) is_front: bool) {
     if tile_at(pixel).part_count == 0u && items[in.item].step_count == 0u {
         return;
     }
-    append(crossings_of(pixel), in.depth, in.item, select(0xffffffffu, 1u, is_front));
+    let role = select(in.role, role_of(in.item, in.triangle), in.role == NONE);
+    if role / 2u != SLOT_OPEN {
+        append(crossings_of(pixel), in.depth, in.item, crossing_word(role / 2u, is_front == (role % 2u == 0u)));
+    }
+}
+
+// Of a drawn triangle of an item that may be cut.
+fn role_of(item: u32, triangle: u32) -> u32 {
+    let first = items[item].roles;
+    if first == NONE {
+        return 0u;
+    }
+    let number = numbers[items[item].first_number + triangle];
+    return (lens_words[first + number / 4u] >> (8u * (number % 4u))) & 0xffu;
 }
 
 fn crossings_of(pixel: vec2u) -> u32 {
@@ -80,21 +117,15 @@ fn next_body(list: u32, least: u32) -> u32 {
     return next;
 }
 
-// The cap of a body at a boundary: that of its first member that is closed there, of those that enclose the boundary by
-// themselves, and the first of the others where those do so together. In `lens_words` a body is the number of its members,
-// then for each its item.
+// The cap of a body at a boundary: that of the first member which is closed there, of those that are the first of a group
+// whose pieces enclose the boundary. In `lens_words` a body is the number of its members, then for each its item.
 fn cap_of_body(list: u32, body: u32, tile: TileRecord, pixel: vec2u, ray: PixelRay, boundary: f32) -> FoundCap {
-    if winding(list, body, NONE, boundary) == 0 {
+    if !encloses(list, body, NONE, boundary) {
         return FoundCap(NONE, NONE);
     }
-    var open_asked = false;
     for (var i = 0u; i < lens_words[body]; i += 1u) {
         let item = lens_words[body + 1u + i];
-        if is_open(item) && open_asked {
-            continue;
-        }
-        open_asked = open_asked || is_open(item);
-        if winding(list, body, item, boundary) != 0 {
+        if items[item].group == item && encloses(list, body, item, boundary) {
             let maker = closing(item, ray, tile, pixel, boundary).maker;
             if maker != NONE {
                 return FoundCap(item, maker);
@@ -104,25 +135,19 @@ fn cap_of_body(list: u32, body: u32, tile: TileRecord, pixel: vec2u, ray: PixelR
     return FoundCap(NONE, NONE);
 }
 
-fn is_open(item: u32) -> bool {
-    return (items[item].flags & ITEM_OPEN) != 0u;
-}
-
-// How often a body, or of it one item or all that are open like that, winds around the ray at a boundary, by what lies
-// behind.
-fn winding(list: u32, body: u32, item: u32, boundary: f32) -> i32 {
-    var sum = 0;
+// Whether the pieces of a body, or of one group of it, enclose the ray at a boundary, by what lies behind.
+fn encloses(list: u32, body: u32, group: u32, boundary: f32) -> bool {
+    var around = Around(0, 0u);
     var slot = list;
     while slot != 0u {
         let met = fragments[slot - 1u];
-        var counts = items[met.y].body == body && !starts_boundary(bitcast<f32>(met.x), boundary);
-        if counts && item != NONE {
-            counts = met.y == item || (is_open(item) && is_open(met.y));
+        let is_asked = items[met.y].body == body && (group == NONE || items[met.y].group == group);
+        if is_asked && !starts_boundary(bitcast<f32>(met.x), boundary) {
+            around = also_crossed(around, met.z);
         }
-        sum += select(0, bitcast<i32>(met.z), counts);
         slot = met.w;
     }
-    return sum;
+    return is_enclosed(around);
 }
 
 // The next boundary behind a depth: of all lenses and, where bodies are moved, of those below their movers.

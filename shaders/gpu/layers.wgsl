@@ -88,7 +88,11 @@ fn put_part(g: ptr<function, Gathering>, asked: AskedPart, number: u32, ray: Len
         }
         return;
     }
+    // All crossings stand behind those of the parts before; then only those are kept at which the ray enters or leaves. None
+    // is overwritten before it has been read.
     let line = mesh_line(part, ray);
+    var own = Gathering((*g).at, (*g).first + (*g).count, 0u);
+    var around = Around(0, 0u);
     var crossing = before_mesh();
     var count = 0u;
     loop {
@@ -97,9 +101,24 @@ fn put_part(g: ptr<function, Gathering>, asked: AskedPart, number: u32, ray: Len
             break;
         }
         if count < parts[part].crossing_room {
-            put_crossing(g, number, crossing.t);
+            if crossing.t <= frame.near {
+                around = also_crossed(around, crossing.word);
+            } else if crossing.t < frame.far {
+                put_boundary(&own, crossing.t, crossing.word);
+            }
         }
         count += 1u;
+    }
+    if is_enclosed(around) {
+        cross_part(number);
+    }
+    for (var i = 1u; i <= own.count; i += 1u) {
+        let at = slot_at(own.at, own.first + i);
+        let was_enclosed = is_enclosed(around);
+        around = also_crossed(around, layers[at + 1u]);
+        if was_enclosed != is_enclosed(around) {
+            put_boundary(g, bitcast<f32>(layers[at]), number);
+        }
     }
     if count > parts[part].crossing_room {
         // The frame is drawn again with more room.

@@ -28,6 +28,20 @@ struct MeshCrossing {
     // Its node; where to go on.
     node: u32,
     found: bool,
+    // See `crossing_word`.
+    word: u32,
+}
+
+// A triangle's first corner has in its upper bits the slot of its piece, one more where it is told by parity.
+const SLOT_SHIFT: u32 = 26u;
+const INDEX_MASK: u32 = 0x03ffffffu;
+
+fn mesh_word(part: u32, triangle: u32, left: bool) -> u32 {
+    var slot = 0u;
+    if (parts[part].flags & PART_PARITY) != 0u {
+        slot = lens_words[parts[part].first_triangle + 3u * triangle] >> SLOT_SHIFT;
+    }
+    return crossing_word(slot, left);
 }
 
 fn mesh_line(part: u32, lens_ray: LensRay) -> MeshLine {
@@ -48,7 +62,7 @@ fn lens_vector(at: u32) -> vec3f {
 
 // Before the first crossing.
 fn before_mesh() -> MeshCrossing {
-    return MeshCrossing(-FAR_AWAY, NONE, 0u, true);
+    return MeshCrossing(-FAR_AWAY, NONE, 0u, true, 1u);
 }
 
 // The crossing after another in the order of the triangles: of those listed, or else of all. One walk over the nodes in
@@ -63,10 +77,10 @@ fn next_in_mesh(asked: AskedPart, line: MeshLine, last: MeshCrossing) -> MeshCro
             let crossing = projected_crossing(part, line.at, triangle);
             node += 1u;
             if crossing.found {
-                return MeshCrossing(crossing.t, triangle, node, true);
+                return MeshCrossing(crossing.t, triangle, node, true, mesh_word(part, triangle, crossing.left));
             }
         }
-        return MeshCrossing(0.0, 0u, node, false);
+        return MeshCrossing(0.0, 0u, node, false, 1u);
     }
     while node < parts[part].node_count {
         let at = parts[part].first_node + node * NODE_WORDS;
@@ -76,7 +90,7 @@ fn next_in_mesh(asked: AskedPart, line: MeshLine, last: MeshCrossing) -> MeshCro
             for (var triangle = max(first, last.triangle + 1u); triangle < first + count; triangle += 1u) {
                 let crossing = triangle_crossing(part, line, triangle);
                 if crossing.found {
-                    return MeshCrossing(crossing.t, triangle, node, true);
+                    return MeshCrossing(crossing.t, triangle, node, true, mesh_word(part, triangle, crossing.left));
                 }
             }
             node += 1u;
@@ -84,7 +98,7 @@ fn next_in_mesh(asked: AskedPart, line: MeshLine, last: MeshCrossing) -> MeshCro
             node = select(node + 1u, first, count == 0u);
         }
     }
-    return MeshCrossing(0.0, 0u, node, false);
+    return MeshCrossing(0.0, 0u, node, false, 1u);
 }
 
 // Whether an endless line meets a box: no axis across the line and a side of the box separates them.
@@ -111,20 +125,22 @@ fn seen_corner(part: u32, line: MeshLine, index: u32) -> SeenCorner {
 struct TriangleCrossing {
     t: f32,
     found: bool,
+    // Its corners run to the left.
+    left: bool,
 }
 
 fn triangle_crossing(part: u32, line: MeshLine, triangle: u32) -> TriangleCrossing {
     let at = parts[part].first_triangle + 3u * triangle;
-    let a = seen_corner(part, line, lens_words[at]);
+    let a = seen_corner(part, line, lens_words[at] & INDEX_MASK);
     let b = seen_corner(part, line, lens_words[at + 1u]);
     let c = seen_corner(part, line, lens_words[at + 2u]);
     let areas = vec3f(edge_area(b, c), edge_area(c, a), edge_area(a, b));
     let left = vec3<bool>(is_left(b, c, areas.x), is_left(c, a, areas.y), is_left(a, b, areas.z));
     if any(left) && !all(left) {
-        return TriangleCrossing(0.0, false);
+        return TriangleCrossing(0.0, false, false);
     }
     let along = dot(areas, vec3f(a.along, b.along, c.along)) / (areas.x + areas.y + areas.z);
-    return TriangleCrossing(line.shift + along / dot(line.direction, line.direction), true);
+    return TriangleCrossing(line.shift + along / dot(line.direction, line.direction), true, all(left));
 }
 
 // The same for a triangle in front of the eye, as the picture shows it.
@@ -136,12 +152,12 @@ fn projected_crossing(part: u32, at: vec2f, triangle: u32) -> TriangleCrossing {
     let c = lens_data[first + 2u];
     let left = vec3<bool>(is_left_of(a, p), is_left_of(b, p), is_left_of(c, p));
     if any(left) && !all(left) {
-        return TriangleCrossing(0.0, false);
+        return TriangleCrossing(0.0, false, false);
     }
     let slope = lens_data[first + 3u];
     let counted = slope.x * (p.x - a.w) + slope.y * (p.y - b.w) + slope.z;
     let t = select(counted, 1.0 / max(counted, 1e-30), frame.perspective != 0u);
-    return TriangleCrossing(clamp(t, c.w, slope.w), true);
+    return TriangleCrossing(clamp(t, c.w, slope.w), true, all(left));
 }
 
 // Whether a point has a side of a projected triangle on its left. On the side it counts as moved, as in `is_left`.
@@ -178,19 +194,21 @@ fn is_left(tail: SeenCorner, head: SeenCorner, area: f32) -> bool {
 // Runs along no symmetry that a mesh is likely to have.
 const ANYWHERE: vec3f = vec3f(0.527348, 0.331907, 0.782154);
 
-// Whether a point of the mesh's own space is inside: a line from it crosses the surface an odd number of times.
+// Whether a point of the mesh's own space is inside.
 fn is_in_mesh(part: u32, p: vec3f) -> bool {
     let line = line_along(LocalRay(p, ANYWHERE), vec2f(0.0));
     var crossing = before_mesh();
-    var inside = false;
+    var around = Around(0, 0u);
     loop {
         crossing = next_in_mesh(with_all_faces(part), line, crossing);
         if !crossing.found {
             break;
         }
-        inside = inside != (crossing.t > 0.0);
+        if crossing.t > 0.0 {
+            around = also_crossed(around, crossing.word);
+        }
     }
-    return inside;
+    return is_enclosed(around);
 }
 
 // The point of the surface nearest to a point of the mesh's own space.
@@ -223,7 +241,7 @@ fn mesh_triangle(part: u32, triangle: u32) -> array<vec3f, 3> {
     let at = parts[part].first_triangle + 3u * triangle;
     let first = parts[part].first_vertex;
     return array<vec3f, 3>(
-        lens_vector(first + 3u * lens_words[at]),
+        lens_vector(first + 3u * (lens_words[at] & INDEX_MASK)),
         lens_vector(first + 3u * lens_words[at + 1u]),
         lens_vector(first + 3u * lens_words[at + 2u]),
     );
@@ -262,16 +280,17 @@ fn mesh_span(part: u32, ray: LensRay, depth: f32) -> Span {
     let line = mesh_line(part, ray);
     var entry = before_mesh();
     var last = entry;
-    var is_exit = true;
+    var around = Around(0, 0u);
     loop {
         last = crossing_behind(part, line, last);
         if !last.found {
             return no_span();
         }
-        is_exit = !is_exit;
-        if !is_exit {
+        let was_enclosed = is_enclosed(around);
+        around = also_crossed(around, last.word);
+        if !was_enclosed && is_enclosed(around) {
             entry = last;
-        } else if last.t >= depth - MERGE * abs(depth) {
+        } else if was_enclosed && !is_enclosed(around) && last.t >= depth - MERGE * abs(depth) {
             break;
         }
     }
@@ -280,7 +299,7 @@ fn mesh_span(part: u32, ray: LensRay, depth: f32) -> Span {
 
 // The nearest crossing behind another; at one depth the order of the triangles counts.
 fn crossing_behind(part: u32, line: MeshLine, after: MeshCrossing) -> MeshCrossing {
-    var best = MeshCrossing(FAR_AWAY, NONE, 0u, false);
+    var best = MeshCrossing(FAR_AWAY, NONE, 0u, false, 1u);
     var crossing = before_mesh();
     loop {
         crossing = next_in_mesh(with_all_faces(part), line, crossing);

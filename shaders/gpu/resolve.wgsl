@@ -119,7 +119,10 @@ fn resolve_sample(@builtin(global_invocation_id) id: vec3u) {
     }
     let seen = composited(id.xy);
     let fragment = seen.visible.fragment;
-    let item = select(0u, fragment.item + 1u, seen.visible.found);
+    var item = select(0u, fragment.item + 1u, seen.visible.found);
+    if item != 0u && is_cap(fragment.triangle) {
+        item |= SEEN_CAP;
+    }
     samples[id.y * frame.window_size.x + id.x] =
         ScreenSample(seen.color, seen.visible.normal, fragment.depth, item, fragment.around, fragment.stack);
 }

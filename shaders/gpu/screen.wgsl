@@ -28,7 +28,7 @@ fn put(pixel: vec2u, filtered: vec4f) {
     }
     let ray = pixel_ray(pixel);
     let position = ray.origin + ray.direction * samples[at].depth;
-    let amount = soft_amount(step.y, samples[at].item - 1u, position);
+    let amount = soft_amount(step.y, (samples[at].item & ~SEEN_CAP) - 1u, position);
     samples[at].color = mix(samples[at].color, filtered, amount);
 }
 
@@ -96,12 +96,22 @@ fn is_other_region(a: u32, b: u32) -> bool {
     return false;
 }
 
+// Whether two pixels see caps of different nodes: sections of parts that may lie in one plane.
+fn is_other_section(a: u32, b: u32) -> bool {
+    if (samples[a].item & samples[b].item & SEEN_CAP) == 0u {
+        return false;
+    }
+    let p = (samples[a].item & ~SEEN_CAP) - 1u;
+    let q = (samples[b].item & ~SEEN_CAP) - 1u;
+    return items[p].node != items[q].node || ((items[p].flags ^ items[q].flags) & ITEM_ALTERNATE) != 0u;
+}
+
 fn marks_for(op: Op, own: u32, seen: Seen, pixel: vec2u, comes_after: bool) -> bool {
     let other = place(pixel);
     var border = BORDER_NONE;
     if !acts(other) {
         border = BORDER_OF_FILTER;
-    } else if is_other_region(own, other) {
+    } else if is_other_region(own, other) || is_other_section(own, other) {
         border = BORDER_OF_REGION;
     }
     return edges_mark(op, seen, seen_at(pixel), border, comes_after);
@@ -133,24 +143,40 @@ fn mark_edges(@builtin(global_invocation_id) id: vec3u) {
     marks[own] = select(0.0, 1.0, has_mark);
 }
 
+// No mark is within reach; a square of a distance in pixels.
+const FAR: f32 = 1e12;
+
+// The square of the distance to the nearest mark in the same row.
+@compute @workgroup_size(8, 8)
+fn find_in_rows(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= frame.window_size) {
+        return;
+    }
+    let columns = along(id.x, u32(edges_reach(ops[step.x])), frame.window_size.x);
+    var nearest = FAR;
+    for (var x = columns.x; x <= columns.y; x += 1u) {
+        if marks[place(vec2u(x, id.y))] != 0.0 {
+            let away = f32(x) - f32(id.x);
+            nearest = min(nearest, away * away);
+        }
+    }
+    rows[place(id.xy)].x = nearest;
+}
+
 @compute @workgroup_size(8, 8)
 fn draw_edges(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= frame.window_size) || !acts(place(id.xy)) {
         return;
     }
     let op = ops[step.x];
-    let reach = u32(edges_reach(op));
-    let columns = along(id.x, reach, frame.window_size.x);
-    let lines = along(id.y, reach, frame.window_size.y);
-    var covered = 0.0;
+    let lines = along(id.y, u32(edges_reach(op)), frame.window_size.y);
+    var nearest = FAR;
     for (var y = lines.x; y <= lines.y; y += 1u) {
-        for (var x = columns.x; x <= columns.y; x += 1u) {
-            if marks[place(vec2u(x, y))] != 0.0 {
-                let away = vec2f(f32(x) - f32(id.x), f32(y) - f32(id.y));
-                covered = max(covered, line_coverage(length(away), op.b.x));
-            }
-        }
+        let away = f32(y) - f32(id.y);
+        nearest = min(nearest, rows[place(vec2u(id.x, y))].x + away * away);
     }
+    // The nearest line covers most.
+    let covered = line_coverage(sqrt(nearest), op.b.x);
     put(id.xy, edges_drawn(op, samples[place(id.xy)].color, covered));
 }
 

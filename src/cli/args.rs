@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use super::open::OpenArgs;
 use crate::output::Aov;
 use crate::spec::ImageSpec;
 
@@ -25,6 +26,8 @@ pub enum Command {
         /// Fail on warnings, too: lenses whose order only the file decides, patterns that match nothing
         #[arg(long)]
         strict: bool,
+        #[command(flatten)]
+        open: OpenArgs,
     },
     /// Explain the order of the lenses, what acts where, and how much of the picture each region takes
     Explain(ExplainArgs),
@@ -32,11 +35,8 @@ pub enum Command {
     Pick(PickArgs),
     /// Measure what the lenses of a lens-spec file cost on the GPU
     Bench(BenchArgs),
-    /// Describe a glTF model
-    Info {
-        /// A .glb or .gltf file
-        model: PathBuf,
-    },
+    /// Describe a glTF model: what it shows, and the names that specs select by
+    Info(InfoArgs),
     /// Write a starter spec for a glTF model
     Init {
         /// A .glb or .gltf file
@@ -44,6 +44,8 @@ pub enum Command {
         /// Where to write it; left out: to the terminal
         #[arg(short, long)]
         output: Option<PathBuf>,
+        #[command(flatten)]
+        open: OpenArgs,
     },
     /// List the filters with their parameters
     Filters {
@@ -53,8 +55,37 @@ pub enum Command {
         #[arg(long, conflicts_with = "name")]
         markdown: bool,
     },
+    /// List the shapes of lenses with their keys
+    Shapes {
+        /// Only this one
+        name: Option<String>,
+        /// A table of all, in Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
     /// Print a JSON Schema of lens-spec files, for editors
-    Schema,
+    Schema {
+        /// The keys as tables in Markdown instead
+        #[arg(long)]
+        markdown: bool,
+    },
+}
+
+#[derive(Debug, Args)]
+pub struct InfoArgs {
+    /// A .glb or .gltf file
+    pub model: PathBuf,
+    /// Only nodes and materials of these names, as a spec would select them: 'Wheel*'
+    #[arg(value_name = "PATTERN")]
+    pub patterns: Vec<String>,
+    /// Each node and each name whole, where otherwise siblings with like names are one line
+    #[arg(long)]
+    pub all: bool,
+    /// Print JSON, always whole
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]
@@ -91,6 +122,8 @@ pub struct RenderArgs {
     /// Write the times of all stages and the sizes of things to a JSON file
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 /// A spec and how it is seen by the commands that tell about a picture.
@@ -104,6 +137,8 @@ pub struct ViewArgs {
     /// Who finds what is seen: the CPU, which need not be started, the GPU, or the GPU where there is a real one
     #[arg(long, value_enum, default_value_t = BackendChoice::Cpu)]
     pub backend: BackendChoice,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]
@@ -119,6 +154,8 @@ pub struct BenchArgs {
     /// Print JSON with every single frame instead of a table
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub open: OpenArgs,
 }
 
 #[derive(Debug, Args)]

@@ -37,7 +37,7 @@ struct Contents {
 pub fn run(args: &BenchArgs) -> Result<(), InputError> {
     let mut spec = Spec::load(&args.spec)?;
     spec.image.size = args.size.unwrap_or(spec.image.size);
-    let scene = Scene::open(&spec)?;
+    let scene = Scene::open_with(&spec, &args.open.options())?;
     let plan = Plan::new(&spec, &scene)?;
     for warning in &plan.warnings {
         eprintln!("warning: {warning}");

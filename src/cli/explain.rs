@@ -23,7 +23,7 @@ impl Opened {
         spec.image.size = args.size.unwrap_or(spec.image.size);
         // Only pixel centres are looked at.
         spec.image.samples = 1;
-        let scene = Scene::open(&spec)?;
+        let scene = Scene::open_with(&spec, &args.open.options())?;
         let plan = Plan::new(&spec, &scene)?;
         Ok(Self { spec, scene, plan })
     }
@@ -58,7 +58,7 @@ pub fn run(args: &ExplainArgs) -> Result<(), InputError> {
         ExplainFormat::Text | ExplainFormat::Json => {
             let backend = choose(&args.view)?;
             let aovs = backend.maps(scene, plan, &mut Stages::default())?;
-            let explanation = explanation.in_view(&aovs, backend.name());
+            let explanation = explanation.in_view(&aovs, backend::in_front(scene, plan)?, backend.name());
             if args.format == ExplainFormat::Json {
                 super::print_json(&explanation);
             } else {

@@ -24,7 +24,17 @@ pub fn filter_text(name: &str) -> Result<String, InputError> {
 pub fn filters_markdown() -> String {
     let head = "# The filters\n\n`lenspeel filters --markdown` writes this page, from the files under `shaders/filters` and \
         the catalogue;\nspecs beside the pictures draw them. Where a default is not a value, it is said in words.\n";
-    FILTERS.iter().fold(head.to_owned(), |page, row| page + "\n" + &section(row))
+    let head = format!("{head}\n{}", filters_index(""));
+    FILTERS.iter().fold(head, |page, row| page + "\n" + &section(row))
+}
+
+/// A table of the filters, each a link into the page at `page`; empty on that page itself.
+pub fn filters_index(page: &str) -> String {
+    let head = "| filter | kind | what it does |\n|---|---|---|\n".to_owned();
+    FILTERS.iter().fold(head, |text, FilterRow { name, kind, help, moves, .. }| {
+        let moves = if *moves { ", moves" } else { "" };
+        text + &format!("| [`{name}`]({page}#{name}) | {kind}{moves} | {help} |\n")
+    })
 }
 
 /// Widths that a filter's longest entries need.

@@ -5,15 +5,19 @@ mod backend;
 #[cfg(feature = "gpu")]
 mod bench;
 mod check;
+mod excerpt;
 mod explain;
 mod filters;
 mod info;
 mod init;
+mod open;
 mod render;
 mod report;
 mod schema;
+mod shapes;
 mod stages;
 mod targets;
+mod words;
 mod wrap;
 
 use std::fmt::{self, Write as _};
@@ -24,15 +28,16 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::InputError;
-use crate::scene::Model;
+use crate::scene::{Model, OpenOptions};
 use crate::spec::Spec;
 use args::{Cli, Command};
 
-pub use filters::{filter_text, filters_markdown, filters_text};
-pub use info::info_text;
+pub use filters::{filter_text, filters_index, filters_markdown, filters_text};
+pub use info::{InfoChoice, info_json, info_text};
 pub use init::init_text;
 pub use report::report;
-pub use schema::schema;
+pub use schema::{keys_markdown, schema};
+pub use shapes::{shape_text, shapes_markdown, shapes_text};
 
 /// The input is wrong; clap itself exits with 2 when the usage is.
 const WRONG_INPUT: u8 = 1;
@@ -41,7 +46,7 @@ const WRONG_INPUT: u8 = 1;
 pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
-        Command::Check { spec, strict } => check::run(&spec, strict),
+        Command::Check { spec, strict, open } => check::run(&spec, strict, &open.options()),
         Command::Explain(args) => explain::run(&args),
         Command::Pick(args) => explain::pick(&args),
         #[cfg(feature = "gpu")]
@@ -51,14 +56,23 @@ pub fn run() -> ExitCode {
             "`bench` measures the GPU backend, and this program was built without the `gpu` feature",
         )
         .help("build it with default features")),
-        Command::Info { model } => Model::load(&model, None).map(|m| print(&info_text(&m))),
-        Command::Init { model, output } => init_command(&model, output.as_deref()),
+        Command::Info(args) => info::run(&args),
+        Command::Init { model, output, open } => init_command(&model, output.as_deref(), &open.options()),
         Command::Filters { name: Some(name), .. } => filters::filter_text(&name).map(|text| print_wrapped(&text)),
         Command::Filters { markdown, .. } => {
             print(&if markdown { filters_markdown() } else { filters_text() });
             Ok(())
         }
-        Command::Schema => {
+        Command::Shapes { name: Some(name), .. } => shapes::shape_text(&name).map(|text| print_wrapped(&text)),
+        Command::Shapes { markdown, .. } => {
+            print(&if markdown { shapes_markdown() } else { shapes_text() });
+            Ok(())
+        }
+        Command::Schema { markdown: true } => {
+            print(&keys_markdown());
+            Ok(())
+        }
+        Command::Schema { markdown: false } => {
             print_json(&schema());
             Ok(())
         }
@@ -100,8 +114,8 @@ impl<W: Write> fmt::Write for Out<W> {
     }
 }
 
-fn init_command(path: &Path, output: Option<&Path>) -> Result<(), InputError> {
-    let model = Model::load(path, None)?;
+fn init_command(path: &Path, output: Option<&Path>, options: &OpenOptions) -> Result<(), InputError> {
+    let model = Model::load_with(path, None, options)?;
     let starter = |file: &str| {
         let text = init_text(&model, file);
         // A model may be larger or smaller than the numbers of a spec reach.

@@ -10,7 +10,7 @@ use crate::debug_view::{self, DebugView, Row};
 use crate::frame::Frame;
 use crate::output::{write_aov, write_picture, write_whole};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{OpenOptions, Scene};
 use crate::spec::Spec;
 
 pub fn run(args: &RenderArgs) -> Result<(), InputError> {
@@ -23,7 +23,7 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
     // A device takes as long to open as many a scene.
     let (opened, device) = std::thread::scope(|scope| {
         let device = scope.spawn(|| backend::choose(args.backend));
-        (open(&spec, &mut stages), stages.time("device", || device.join()))
+        (open(&spec, &args.open.options(), &mut stages), stages.time("device", || device.join()))
     });
     let (scene, plan) = opened?;
     for warning in &plan.warnings {
@@ -42,13 +42,13 @@ pub fn run(args: &RenderArgs) -> Result<(), InputError> {
         eprint!("{}", stages.text());
     }
     match &args.stats {
-        Some(path) => write_whole(path, stats(args, &plan, &choice, &stages).as_bytes()),
+        Some(path) => write_whole(path, stats(args, &plan, backend.name(), &choice, &stages).as_bytes()),
         None => Ok(()),
     }
 }
 
-fn open(spec: &Spec, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
-    let scene = stages.time("scene", || Scene::open(spec))?;
+fn open(spec: &Spec, options: &OpenOptions, stages: &mut Stages) -> Result<(Scene, Plan), InputError> {
+    let scene = stages.time("scene", || Scene::open_with(spec, options))?;
     let plan = stages.time("plan", || Plan::new(spec, &scene))?;
     Ok((scene, plan))
 }
@@ -73,7 +73,7 @@ fn draw_view(
             return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs))
+    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
 }
 
 fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {
@@ -99,9 +99,9 @@ fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<(), InputE
     Ok(())
 }
 
-fn stats(args: &RenderArgs, plan: &Plan, choice: &str, stages: &Stages) -> String {
+fn stats(args: &RenderArgs, plan: &Plan, backend: &str, choice: &str, stages: &Stages) -> String {
     let engine = args.engine.and_then(|e| e.to_possible_value()).map_or("fused".into(), |e| e.get_name().to_string());
-    let (backend, reason) = choice.split_once(": ").unwrap_or((choice, ""));
+    let reason = choice.split_once(": ").map_or("", |(_, reason)| reason);
     let stats = serde_json::json!({
         "backend": backend,
         "reason": reason,

@@ -1,5 +1,7 @@
 //! The user's own filters on the CPU: the work of `shaders/gpu/custom.wgsl`.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::Vec3;
 
 use super::convert::{g2, g3, v3, v4};
@@ -11,6 +13,8 @@ use crate::plan::Plan;
 pub struct Site<'a> {
     pub plan: &'a Plan,
     pub position: Vec3,
+    /// Loop iterations that the filters of a picture have taken; see [`crate::limits::FILTER_ITERATIONS`].
+    pub spent: &'a AtomicU64,
 }
 
 impl Site<'_> {
@@ -34,7 +38,9 @@ impl Site<'_> {
 
     pub fn filtered(&self, op: &wgsl::Op, before: wgsl::Surface) -> wgsl::Surface {
         let seen = self.seen(&before);
-        let made = self.plan.customs[op.texture as usize].surface(&seen, self.words(op));
+        let mut spent = 0;
+        let made = self.plan.customs[op.texture as usize].surface_spending(&seen, self.words(op), &mut spent);
+        self.spend(spent);
         let mut s = before;
         s.normal = v3(Vec3::from_array(made.normal).normalize_or(g3(before.normal)));
         if made.base_color != seen.base_color {
@@ -53,7 +59,16 @@ impl Site<'_> {
 
     pub fn colored(&self, op: &wgsl::Op, color: Vec3, s: &wgsl::Surface) -> Vec3 {
         let custom = &self.plan.customs[op.texture as usize];
-        Vec3::from_array(custom.color(color.to_array(), &self.seen(s), self.words(op)))
+        let mut spent = 0;
+        let made = custom.color_spending(color.to_array(), &self.seen(s), self.words(op), &mut spent);
+        self.spend(spent);
+        Vec3::from_array(made)
+    }
+
+    fn spend(&self, spent: u32) {
+        if spent > 0 {
+            self.spent.fetch_add(u64::from(spent), Ordering::Relaxed);
+        }
     }
 
     /// The values of the filter's parameters, and of those behind it.

@@ -9,7 +9,7 @@ use obvhs::{BvhBuildParams, aabb::Aabb};
 use rayon::prelude::*;
 
 use crate::plan::{Instance, Plan};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Enclosing, Scene};
 use crate::view::View;
 
 /// Triangles in the order of the BVH's leaves.
@@ -79,7 +79,7 @@ impl Geometry {
             .collect()
     }
 
-    /// All of the nodes that may be cut.
+    /// All that encloses something of the nodes that may be cut.
     pub fn of_bodies(scene: &Scene, plan: &Plan) -> Self {
         let members = plan.bodies.par_iter().flat_map_iter(|body| &body.members);
         let everywhere = scene::Aabb::EVERYWHERE;
@@ -87,7 +87,14 @@ impl Geometry {
             members
                 .flat_map(|member| {
                     let instance = &plan.instances[member.instance];
-                    triangles(scene, plan, member.instance, instance, everywhere)
+                    let item = &plan.items[instance.item];
+                    let closure = scene.models[item.model].closure(item.mesh, item.ratio);
+                    let primitive = item.primitive;
+                    let lids = lids(scene, plan, member.instance, &closure.primitives[primitive]);
+                    let encloses = move |triangle: &Triangle| {
+                        closure.primitives[primitive].role(triangle.index as usize).is_closed()
+                    };
+                    triangles(scene, plan, member.instance, instance, everywhere).filter(encloses).chain(lids)
                 })
                 .collect(),
         )
@@ -112,6 +119,23 @@ impl Geometry {
         let ordered = bvh.primitive_indices.par_iter().map(|i| triangles[*i as usize]).collect();
         Self { bvh, triangles: ordered }
     }
+}
+
+/// What closes holes of an instance over, numbered from its triangles on.
+fn lids(scene: &Scene, plan: &Plan, index: usize, enclosing: &Enclosing) -> Vec<Triangle> {
+    let instance = &plan.instances[index];
+    let item = &plan.items[instance.item];
+    let world = instance.shown_from_world * scene.models[item.model].nodes[item.node].world_from_local;
+    let scale = Reach::new(&plan.view).scale;
+    let around_eye = |p: Vec3| ((world.transform_point3(p.as_dvec3()) - plan.view.eye) * scale).as_vec3();
+    let numbered = (item.triangles..).zip(&enclosing.lids);
+    numbered
+        .map(|(number, (corners, _))| Triangle {
+            corners: corners.map(around_eye),
+            instance: index as u32,
+            index: number,
+        })
+        .collect()
 }
 
 /// The triangles of an instance that reach into some bounds.

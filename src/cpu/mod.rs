@@ -6,10 +6,12 @@ mod custom;
 mod geometry;
 mod glass;
 mod intersect;
+mod memory;
 mod pixel;
 mod render;
 mod screen;
 mod shade;
 mod texture;
 
-pub use render::Renderer;
+pub use memory::check_memory;
+pub use render::{Error, Renderer};

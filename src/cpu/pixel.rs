@@ -6,6 +6,8 @@ mod contact;
 mod moved;
 mod removed;
 
+use std::sync::atomic::Ordering;
+
 use glam::{Vec2, Vec3, Vec4};
 
 use super::block::{Block, BlockRays, Camera};
@@ -15,6 +17,7 @@ use super::glass::GlassHits;
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
+use crate::frame::InFront;
 use crate::lens::{PixelRect, RayLayers, starts_boundary};
 use crate::pixel::{Fragment, PixelReport, Survivor, Visible, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
@@ -55,6 +58,8 @@ pub struct Scratch {
     listed: Vec<(u32, Fragment)>,
     crossings: Vec<Crossing>,
     glass: GlassHits,
+    /// What lenses take away: the rays' numbers, the depth, and who does; only noted where it is there.
+    removed: Option<Vec<(u32, f32, LensSet)>>,
 }
 
 /// One ray of a block.
@@ -70,6 +75,11 @@ struct OneRay {
 }
 
 impl Scratch {
+    /// One that notes what lenses take away.
+    pub fn noting() -> Self {
+        Self { removed: Some(Vec::new()), ..Self::default() }
+    }
+
     /// Where a ray of the block traced last surely ends.
     pub fn depth(&self, sample: usize) -> f32 {
         self.rays[sample].opaque.map_or(f32::INFINITY, |(fragment, _)| fragment.depth)
@@ -110,10 +120,21 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// Counts the work of the user's own filters anew.
+    pub fn start_picture(&self) {
+        self.shader.spent.store(0, Ordering::Relaxed);
+    }
+
+    /// Loop iterations that the user's own filters have taken for the picture.
+    pub fn filter_iterations(&self) -> u64 {
+        self.shader.spent.load(Ordering::Relaxed)
+    }
+
     /// Meets the rays of a block with everything. `ranks`: the lenses that may touch it.
     pub fn trace(&self, block: &Block, ranks: &[usize], scratch: &mut Scratch) {
-        let Scratch { bundle, rays, listed, crossings, .. } = scratch;
+        let Scratch { bundle, rays, listed, crossings, removed, .. } = scratch;
         listed.clear();
+        removed.iter_mut().for_each(Vec::clear);
         rays.resize_with(rays.len().max(block.len()), OneRay::default);
         for (number, one) in rays[..block.len()].iter_mut().enumerate() {
             self.start(block, number, ranks, one);
@@ -138,6 +159,10 @@ impl<'a> Tracer<'a> {
                 if !self.is_plain(instance, lenses) {
                     let verdict = self.verdict(&one.ray, instance, depth, &one.layers, &mut one.moved);
                     if !verdict.displayed {
+                        let told = verdict.here || !self.instance(instance).is_moved();
+                        if let Some(removed) = removed.as_mut().filter(|_| told) {
+                            removed.push((number as u32, depth, verdict.removed_by));
+                        }
                         return None;
                     }
                     fragment.region = Region { set: verdict.set, stack: verdict.stack };
@@ -275,6 +300,34 @@ impl<'a> Tracer<'a> {
             }
         }
         report
+    }
+
+    /// Counts what lies in front of what is visible at each sample of the block traced last, in a [`Scratch::noting`];
+    /// `nearest` is told of each sample's nearest surface.
+    pub fn count_in_front(
+        &self,
+        samples: usize,
+        scratch: &Scratch,
+        counts: &mut InFront,
+        nearest: &mut Vec<Option<Region>>,
+    ) {
+        let mut removers = vec![LensSet::EMPTY; samples];
+        let reports: Vec<PixelReport> = (0..samples).map(|sample| self.report(sample, scratch)).collect();
+        for (ray, depth, by) in scratch.removed.iter().flatten() {
+            let end = reports[*ray as usize].visible.map_or(f32::INFINITY, |visible| visible.fragment.depth);
+            if *depth < end {
+                removers[*ray as usize] = removers[*ray as usize] | *by;
+            }
+        }
+        for (sample, (report, removers)) in reports.iter().zip(removers).enumerate() {
+            let is_visible = |s: &&Survivor| report.visible.is_some_and(|visible| visible.fragment == s.fragment);
+            let mut regions: Vec<Region> =
+                report.fragments.iter().filter(|s| !is_visible(s)).map(|s| s.fragment.region).collect();
+            regions.sort_unstable();
+            regions.dedup();
+            counts.count(removers, &regions);
+            nearest.push(fragments(sample, &scratch.rays[sample], &scratch.listed).next().map(|f| f.region));
+        }
     }
 
     /// From a ray's parameter in the space of the geometry to a depth, and back.

@@ -1,25 +1,64 @@
 //! A whole picture, tile by tile.
 
+mod in_front;
+
 use glam::Vec4;
 use rayon::prelude::*;
 
 use super::block::Block;
 use super::convert::{g3, v3};
+use super::memory;
 use super::pixel::{Scratch, Tracer};
 use super::screen::{self, Plane};
+use crate::InputError;
 use crate::appearance as wgsl;
-use crate::frame::{Aovs, Frame, RegionTable};
+use crate::frame::{Aovs, Frame, NoMemory, RegionTable, check_memory, filled};
 use crate::lens::{LayerStart, PixelRect, RayLayers};
+use crate::limits::FILTER_ITERATIONS;
 use crate::pick::Pick;
 use crate::pixel::{PixelReport, Visible};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Scene, TO_TAKE_LESS};
 
-/// Rows of a picture whose samples are kept at once, for filters of the screen.
+/// The fewest rows of a picture whose samples are kept at once, for filters of the screen, and how many samples, about: what
+/// lies around a band is traced for it anew.
 const BAND: u32 = 128;
+const BAND_SAMPLES: u32 = 1 << 22;
+
+/// Pixels, about, of which all that was found is kept at once, before it is brought into the picture and its maps.
+const BAND_PIXELS: u32 = 1 << 20;
 
 /// Samples along each side of a block, about.
 const BLOCK: u32 = 16;
+
+/// A picture that cannot be made.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    #[error("the plan was made for another scene than the one that is drawn")]
+    OtherScene,
+    /// With the numbers; see [`OpenOptions::memory_limit`](crate::scene::OpenOptions::memory_limit).
+    #[error("{0}")]
+    TooLarge(String),
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
+    #[error(
+        "the loops of `wgsl` filters took more than {FILTER_ITERATIONS} iterations for one picture \
+         (an iteration that computes more than 64 numbers counts as several)"
+    )]
+    FilterWork,
+}
+
+impl From<Error> for InputError {
+    fn from(error: Error) -> Self {
+        let help = match error {
+            Error::OtherScene => "make a plan of this scene with `Plan::new`",
+            Error::TooLarge(_) => TO_TAKE_LESS,
+            Error::NoMemory(_) => "make it smaller, or leave maps out",
+            Error::FilterWork => "let the loops end sooner, or make the picture smaller or with fewer samples",
+        };
+        InputError::new(error.to_string()).help(help)
+    }
+}
 
 /// Renders a plan over a scene. Holds the scene's acceleration structures.
 pub struct Renderer<'a> {
@@ -51,38 +90,82 @@ struct Center {
 }
 
 impl<'a> Renderer<'a> {
-    pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
-        Self { plan, tracer: Tracer::new(scene, plan) }
+    /// # Errors
+    /// The plan was made for another scene, or its triangles exceed the memory limit that the scene was opened with.
+    pub fn new(scene: &'a Scene, plan: &'a Plan) -> Result<Self, Error> {
+        if plan.scene != scene.id {
+            return Err(Error::OtherScene);
+        }
+        memory::check_memory(scene, plan)?;
+        Ok(Self { plan, tracer: Tracer::new(scene, plan) })
     }
 
     /// The picture; with `aovs`, what lies at the centre of each pixel, too. `done` is called with the number of
     /// pixels of each finished tile, from any thread.
-    pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Frame {
+    ///
+    /// # Errors
+    /// There is no memory for the picture.
+    pub fn render(&self, aovs: bool, done: &(dyn Fn(u64) + Sync)) -> Result<Frame, Error> {
         let size = self.plan.view.size;
+        check_memory(size, aovs)?;
+        self.tracer.start_picture();
         if !self.plan.screen.is_empty() {
-            let pixels = self.screen_filtered(done);
-            return Frame { size, pixels, aovs: aovs.then(|| self.maps(&|_| ())) };
+            let maps = if aovs { Some(self.maps(&|_| ())?) } else { None };
+            return Ok(Frame { size, pixels: self.screen_filtered(done)?, aovs: maps });
         }
-        let tiles = self.tiles(Wanted { colors: true, maps: aovs }, done);
-        let mut pixels = vec![[0; 4]; size[0] as usize * size[1] as usize];
-        for tile in &tiles {
-            for ((x, y), color) in pixels_of(&tile.rect).zip(&tile.pixels) {
-                pixels[(y * size[0] + x) as usize] = *color;
-            }
-        }
-        Frame { size, pixels, aovs: aovs.then(|| self.collect(&tiles)) }
+        let mut pixels = filled(size[0] as usize * size[1] as usize, [0; 4])?;
+        let maps = self.draw(Some(&mut pixels), aovs, done)?;
+        Ok(Frame { size, pixels, aovs: maps })
     }
 
     /// What lies at the centre of each pixel, without the picture. `done` is called as by [`Renderer::render`].
-    pub fn maps(&self, done: &(dyn Fn(u64) + Sync)) -> Aovs {
-        self.collect(&self.tiles(Wanted { colors: false, maps: true }, done))
+    ///
+    /// # Errors
+    /// There is no memory for the maps.
+    pub fn maps(&self, done: &(dyn Fn(u64) + Sync)) -> Result<Aovs, Error> {
+        check_memory(self.plan.view.size, true)?;
+        self.tracer.start_picture();
+        Ok(self.draw(None, true, done)?.unwrap_or_default())
+    }
+
+    /// Draws into a picture, if there is one, and gives the maps, if they are wanted. Goes from band to band: of each pixel of
+    /// one several times as much is kept as of the others.
+    fn draw(
+        &self,
+        mut pixels: Option<&mut [[u8; 4]]>,
+        maps: bool,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Result<Option<Aovs>, Error> {
+        let [width, height] = self.plan.view.size;
+        let wanted = Wanted { colors: pixels.is_some(), maps };
+        let mut table = RegionTable::default();
+        let mut aovs = if maps { Some(Aovs::empty([width, height])?) } else { None };
+        let rows = (BAND_PIXELS / width).next_multiple_of(BAND);
+        for first in (0..height).step_by(rows as usize) {
+            let band = PixelRect { min: [0, first], max: [width, (first + rows).min(height)] };
+            for tile in self.tiles(band, wanted, done)? {
+                for (number, (x, y)) in pixels_of(&tile.rect).enumerate() {
+                    let at = y as usize * width as usize + x as usize;
+                    if let Some(pixels) = &mut pixels {
+                        pixels[at] = tile.pixels[number];
+                    }
+                    if let Some(aovs) = &mut aovs {
+                        self.store(aovs, &mut table, at, &tile.centers[number]);
+                    }
+                }
+            }
+        }
+        if let Some(aovs) = &mut aovs {
+            aovs.table = table.table;
+        }
+        Ok(aovs)
     }
 
     /// The depth at which the ray of each pixel's centre surely ends, infinite where nothing opaque is: primary visibility
     /// and nothing else.
     pub fn depths(&self) -> Vec<f32> {
         let [width, height] = self.plan.view.size;
-        let tiles: Vec<(PixelRect, Vec<f32>)> = tiles([width, height], BLOCK)
+        let tiles: Vec<(PixelRect, Vec<f32>)> = tiles_of(&PixelRect { min: [0; 2], max: [width, height] }, BLOCK)
             .into_par_iter()
             .map_init(Scratch::default, |scratch, rect| {
                 let block = Block { rect, side: 1 };
@@ -99,77 +182,69 @@ impl<'a> Renderer<'a> {
         depths
     }
 
-    fn collect(&self, tiles: &[TileResult]) -> Aovs {
-        let size = self.plan.view.size;
-        let (mut maps, mut table) = (Aovs::empty(size), RegionTable::default());
-        for tile in tiles {
-            for ((x, y), center) in pixels_of(&tile.rect).zip(&tile.centers) {
-                self.store(&mut maps, &mut table, (y * size[0] + x) as usize, center);
-            }
-        }
-        maps.table = table.table;
-        maps
-    }
-
     /// The picture, band by band: filters of the screen work on each sample of all pixels of a band and of those that
     /// they reach around it.
-    fn screen_filtered(&self, done: &(dyn Fn(u64) + Sync)) -> Vec<[u8; 4]> {
+    fn screen_filtered(&self, done: &(dyn Fn(u64) + Sync)) -> Result<Vec<[u8; 4]>, Error> {
         let [width, height] = self.plan.view.size;
         let reach = self.plan.screen_reach();
-        let mut pixels = Vec::new();
-        for first in (0..height).step_by(BAND as usize) {
-            let last = (first + BAND).min(height);
+        let mut pixels = filled(width as usize * height as usize, [0; 4])?;
+        let rows = (BAND_SAMPLES / width / self.plan.samples).saturating_sub(2 * reach).max(BAND);
+        for first in (0..height).step_by(rows as usize) {
+            let last = (first + rows).min(height);
             let around = PixelRect {
                 min: [0, first.saturating_sub(reach)],
                 max: [width, last.saturating_add(reach).min(height)],
             };
-            let planes = self.planes(around);
+            let planes = self.planes(around)?;
             let inner = PixelRect { min: [0, first], max: [width, last] };
             let sums = screen::filtered(self.plan, planes, &inner);
             let samples = self.plan.samples as f32;
-            pixels.extend(sums.into_iter().map(|sum| self.finish(sum / samples)));
+            let own = &mut pixels[first as usize * width as usize..];
+            own.iter_mut().zip(sums).for_each(|(pixel, sum)| *pixel = self.finish(sum / samples));
             done(inner.area());
         }
-        pixels
+        Ok(pixels)
     }
 
     /// What each sample of a rectangle's pixels sees, a plane for each sample of a pixel.
-    fn planes(&self, rect: PixelRect) -> Vec<Plane> {
+    fn planes(&self, rect: PixelRect) -> Result<Vec<Plane>, Error> {
         let side = self.samples_along();
         let mut planes: Vec<Plane> = (0..side * side).map(|sample| Plane::new(rect, sample, side)).collect();
-        let shift = |tile: PixelRect| PixelRect {
-            min: [0, 1].map(|axis| tile.min[axis] + rect.min[axis]),
-            max: [0, 1].map(|axis| tile.max[axis] + rect.min[axis]),
-        };
-        let size = [0, 1].map(|axis| rect.max[axis] - rect.min[axis]);
-        let traced: Vec<(PixelRect, Vec<SampleSeen>)> = tiles(size, (BLOCK / side).max(1))
+        let traced: Result<Vec<(PixelRect, Vec<SampleSeen>)>, Error> = tiles_of(&rect, (BLOCK / side).max(1))
             .into_par_iter()
             .map_init(Scratch::default, |scratch, tile| {
-                let tile = shift(tile);
+                self.check_filter_work()?;
                 let (block, ranks) = (Block { rect: tile, side }, self.ranks(&tile));
                 self.tracer.trace(&block, &ranks, scratch);
                 let samples = pixels_of(&tile).flat_map(|at| block.samples_of(at.into()));
-                (tile, samples.map(|sample| self.tracer.seen(sample, &ranks, scratch)).collect())
+                Ok((tile, samples.map(|sample| self.tracer.seen(sample, &ranks, scratch)).collect()))
             })
             .collect();
-        for (tile, samples) in traced {
+        for (tile, samples) in traced? {
             for ((x, y), seen) in pixels_of(&tile).zip(samples.chunks_exact(planes.len())) {
                 for (plane, (color, visible)) in planes.iter_mut().zip(seen) {
                     plane.put(self.plan, [x, y], *color, visible);
                 }
             }
         }
-        planes
+        Ok(planes)
     }
 
-    fn tiles(&self, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Vec<TileResult> {
+    /// Whether the user's own filters may go on.
+    fn check_filter_work(&self) -> Result<(), Error> {
+        if self.tracer.filter_iterations() > FILTER_ITERATIONS { Err(Error::FilterWork) } else { Ok(()) }
+    }
+
+    /// All tiles of a band.
+    fn tiles(&self, band: PixelRect, wanted: Wanted, done: &(dyn Fn(u64) + Sync)) -> Result<Vec<TileResult>, Error> {
         let side = if wanted.colors { self.samples_along() } else { 1 };
-        tiles(self.plan.view.size, (BLOCK / side).max(1))
+        tiles_of(&band, (BLOCK / side).max(1))
             .into_par_iter()
             .map_init(Scratch::default, |scratch, rect| {
+                self.check_filter_work()?;
                 let result = self.tile(rect, wanted, scratch);
                 done(rect.area());
-                result
+                Ok(result)
             })
             .collect()
     }
@@ -280,15 +355,12 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// The rectangles of a picture with sides of so many pixels.
-fn tiles(size: [u32; 2], side: u32) -> Vec<PixelRect> {
-    let starts = |length: u32| (0..length).step_by(side as usize);
-    starts(size[1])
-        .flat_map(|y| {
-            starts(size[0])
-                .map(move |x| PixelRect { min: [x, y], max: [(x + side).min(size[0]), (y + side).min(size[1])] })
-        })
-        .collect()
+/// The rectangles of another with sides of so many pixels.
+fn tiles_of(rect: &PixelRect, side: u32) -> Vec<PixelRect> {
+    let PixelRect { min, max } = *rect;
+    let starts = |axis: usize| (min[axis]..max[axis]).step_by(side as usize);
+    let tile = |x: u32, y: u32| PixelRect { min: [x, y], max: [(x + side).min(max[0]), (y + side).min(max[1])] };
+    starts(1).flat_map(|y| starts(0).map(move |x| tile(x, y))).collect()
 }
 
 fn pixel_rect(x: u32, y: u32) -> PixelRect {

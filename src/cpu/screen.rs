@@ -7,7 +7,7 @@ use super::convert::{d3, g3, g4, v3, v4};
 use super::shade::soft_amount;
 use crate::appearance as wgsl;
 use crate::lens::{LensSet, PixelRect};
-use crate::pixel::Visible;
+use crate::pixel::{Visible, cap_maker};
 use crate::plan::{Plan, Region, ScreenStep};
 use crate::view::Projection;
 
@@ -27,6 +27,7 @@ struct Point {
     seen: wgsl::Seen,
     /// Into [`Plan::instances`].
     instance: u32,
+    is_cap: bool,
     /// The lenses around it, and those that act.
     set: LensSet,
     stack: LensSet,
@@ -38,7 +39,7 @@ impl Plane {
         let along = |number: u32| (f64::from(number) + 0.5) / f64::from(side);
         let zero = v3(glam::Vec3::ZERO);
         let seen = wgsl::Seen { found: 0, depth: 0.0, position: zero, normal: zero, span: 0.0 };
-        let nothing = Point { seen, instance: 0, set: LensSet::EMPTY, stack: LensSet::EMPTY };
+        let nothing = Point { seen, instance: 0, is_cap: false, set: LensSet::EMPTY, stack: LensSet::EMPTY };
         let count = rect.area() as usize;
         let at = [along(sample % side), along(sample / side)];
         Self { rect, at, colors: vec![Vec4::ZERO; count], seen: vec![nothing; count] }
@@ -58,7 +59,8 @@ impl Plane {
         let position = d3(ray.at(depth) - view.eye);
         let seen = wgsl::Seen { found: 1, depth: fragment.depth, position, normal: v3(*normal), span: span as f32 };
         let Region { set, stack } = fragment.region;
-        self.seen[at] = Point { seen, instance: fragment.instance, set, stack };
+        let is_cap = cap_maker(fragment.triangle).is_some();
+        self.seen[at] = Point { seen, instance: fragment.instance, is_cap, set, stack };
     }
 
     fn width(&self) -> usize {
@@ -115,46 +117,40 @@ impl Plane {
 
     /// Each pixel of the lens as the weighted mean of those around it: sums along rows, then of these along columns.
     fn take_means(&mut self, plan: &Plan, op: wgsl::Op, reach: u32, rank: usize) {
-        let places = 0..self.colors.len();
-        let weight = |at: u32, other: u32| wgsl::mean_weight(op, at as f32, other as f32);
-        let row = |place: usize| {
-            let own = self.pixel(place)[0];
-            let others = self.along(place, 0, reach).filter(|(_, other)| self.acts(*other, rank));
-            others.fold((Vec4::ZERO, 0.0), |(sum, all), (number, other)| {
-                let weight = weight(own, number);
-                (sum + self.colors[other] * weight, all + weight)
-            })
+        let width = self.width();
+        // What takes no part weighs nothing.
+        let weighed = |place: usize| {
+            let takes_part = self.acts(place, rank);
+            if takes_part { (self.colors[place], 1.0) } else { (Vec4::ZERO, 0.0) }
         };
-        let rows: Vec<(Vec4, f32)> = places.into_par_iter().map(row).collect();
-        self.put_all(plan, rank, |plane, place| {
-            let own = plane.pixel(place)[1];
-            let (sum, all) = plane.along(place, 1, reach).fold((Vec4::ZERO, 0.0), |(sum, all), (number, other)| {
-                let weight = weight(own, number);
-                (sum + rows[other].0 * weight, all + rows[other].1 * weight)
-            });
-            sum / all
-        });
+        let all: Vec<Weighed> = (0..self.colors.len()).into_par_iter().map(weighed).collect();
+        let sums = if op.kind == wgsl::OP_PIXELATE.0 {
+            let side = wgsl::pixelate_side(op) as usize;
+            let [left, top] = self.rect.min.map(|first| first as usize % side);
+            cell_sums(&all, width, side, left, top)
+        } else {
+            let weights: Vec<f32> = (0..=reach).map(|away| wgsl::mean_weight(op, 0.0, away as f32)).collect();
+            bell_sums(&all, width, &weights)
+        };
+        self.put_all(plan, rank, |_, place| sums[place].0 / sums[place].1);
     }
 
     fn draw_edges(&mut self, plan: &Plan, op: wgsl::Op, rank: usize) {
         let places = 0..self.colors.len();
-        let marks: Vec<bool> = places.into_par_iter().map(|place| self.has_mark(op, rank, place)).collect();
-        let reach = wgsl::edges_reach(op) as u32;
+        let marks: Vec<bool> = places.into_par_iter().map(|place| self.has_mark(plan, op, rank, place)).collect();
+        let away = squared_distances(&marks, self.width(), wgsl::edges_reach(op) as u32);
         self.put_all(plan, rank, |plane, place| {
-            let [x, y] = plane.pixel(place);
-            let mut covered: f32 = 0.0;
-            for (row, of_row) in plane.along(place, 1, reach) {
-                for (column, _) in plane.along(of_row, 0, reach).filter(|(_, other)| marks[*other]) {
-                    let [dx, dy] = [column as f32 - x as f32, row as f32 - y as f32];
-                    covered = covered.max(wgsl::line_coverage((dx * dx + dy * dy).sqrt(), op.b.x));
-                }
-            }
+            // The nearest line covers most.
+            let covered = match away[place] {
+                FAR => 0.0,
+                squared => wgsl::line_coverage((squared as f32).sqrt(), op.b.x),
+            };
             g4(wgsl::edges_drawn(op, v4(plane.colors[place]), covered))
         });
     }
 
     /// Whether a line lies on a pixel.
-    fn has_mark(&self, op: wgsl::Op, rank: usize, place: usize) -> bool {
+    fn has_mark(&self, plan: &Plan, op: wgsl::Op, rank: usize, place: usize) -> bool {
         let p = &self.seen[place];
         if !self.acts(place, rank) {
             return false;
@@ -164,7 +160,7 @@ impl Plane {
             let q = &self.seen[other];
             let border = match () {
                 () if !self.acts(other, rank) => wgsl::BORDER_OF_FILTER,
-                () if q.set != p.set => wgsl::BORDER_OF_REGION,
+                () if q.set != p.set || is_other_section(plan, p, q) => wgsl::BORDER_OF_REGION,
                 () => wgsl::BORDER_NONE,
             };
             wgsl::edges_mark(op, p.seen, q.seen, border.0, comes_after)
@@ -176,6 +172,12 @@ impl Plane {
     }
 }
 
+/// Whether caps of different nodes are seen: sections of parts that may lie in one plane.
+fn is_other_section(plan: &Plan, p: &Point, q: &Point) -> bool {
+    let item = |point: &Point| &plan.items[plan.instances[point.instance as usize].item];
+    p.is_cap && q.is_cap && (item(p).node, item(p).is_alternate()) != (item(q).node, item(q).is_alternate())
+}
+
 /// The sums of all samples' filtered colours for the pixels of a part of the planes' rectangle, row by row.
 pub fn filtered(plan: &Plan, mut planes: Vec<Plane>, part: &PixelRect) -> Vec<Vec4> {
     for step in &plan.screen {
@@ -184,4 +186,175 @@ pub fn filtered(plan: &Plan, mut planes: Vec<Plane>, part: &PixelRect) -> Vec<Ve
     let rows = part.min[1]..part.max[1];
     let pixels = rows.flat_map(|y| (part.min[0]..part.max[0]).map(move |x| (x, y)));
     pixels.map(|(x, y)| planes.iter().map(|plane| plane.colors[plane.place(x, y)]).sum()).collect()
+}
+
+/// A colour, or a sum of colours, and the sum of their weights.
+type Weighed = (Vec4, f32);
+
+/// Adds a share of the second to the first.
+fn add(to: &mut Weighed, from: &Weighed, weight: f32) {
+    to.0 += from.0 * weight;
+    to.1 += from.1 * weight;
+}
+
+/// For each place the weighted sum of all up to `weights.len() - 1` rows and columns away, by how far they are.
+fn bell_sums(all: &[Weighed], width: usize, weights: &[f32]) -> Vec<Weighed> {
+    let (reach, height) = (weights.len() - 1, all.len() / width);
+    let around = |at: usize, length: usize| at.saturating_sub(reach)..(at + reach + 1).min(length);
+    let in_row = |(place, sum): (usize, &mut Weighed)| {
+        let (row, x) = (place / width * width, place % width);
+        for other in around(x, width) {
+            add(sum, &all[row + other], weights[other.abs_diff(x)]);
+        }
+    };
+    let mut rows = vec![(Vec4::ZERO, 0.0); all.len()];
+    rows.par_iter_mut().enumerate().for_each(in_row);
+    let mut sums = vec![(Vec4::ZERO, 0.0); all.len()];
+    sums.par_chunks_mut(width).enumerate().for_each(|(y, sums)| {
+        for other in around(y, height) {
+            let weight = weights[other.abs_diff(y)];
+            sums.iter_mut().zip(&rows[other * width..]).for_each(|(sum, row)| add(sum, row, weight));
+        }
+    });
+    sums
+}
+
+/// For each place the sum of its square of `side` rows and columns; the first square begins `left` columns and `top` rows
+/// before the first place.
+fn cell_sums(all: &[Weighed], width: usize, side: usize, left: usize, top: usize) -> Vec<Weighed> {
+    let mut rows = vec![(Vec4::ZERO, 0.0); all.len()];
+    rows.par_chunks_mut(width).zip(all.par_chunks(width)).for_each(|(sums, row)| {
+        for first in (0..width + left).step_by(side) {
+            let cell = first.saturating_sub(left)..(first + side - left.min(first + side)).min(width);
+            let mut sum = (Vec4::ZERO, 0.0);
+            row[cell.clone()].iter().for_each(|own| add(&mut sum, own, 1.0));
+            sums[cell].fill(sum);
+        }
+    });
+    // Squares side by side have the same rows.
+    let height = all.len() / width;
+    let mut sums = vec![(Vec4::ZERO, 0.0); all.len()];
+    for first in (0..height + top).step_by(side) {
+        let cells = first.saturating_sub(top)..(first + side - top.min(first + side)).min(height);
+        let mut of_cells = vec![(Vec4::ZERO, 0.0); width];
+        for y in cells.clone() {
+            of_cells.iter_mut().zip(&rows[y * width..]).for_each(|(sum, row)| add(sum, row, 1.0));
+        }
+        cells.for_each(|y| sums[y * width..][..width].copy_from_slice(&of_cells));
+    }
+    sums
+}
+
+/// No mark is within reach.
+const FAR: u32 = u32::MAX;
+
+/// For each place the square of the distance to the nearest mark no more than `reach` rows and columns away, or [`FAR`]:
+/// along rows first, then along columns.
+fn squared_distances(marks: &[bool], width: usize, reach: u32) -> Vec<u32> {
+    let mut rows = vec![FAR; marks.len()];
+    rows.par_chunks_mut(width).zip(marks.par_chunks(width)).for_each(|(squares, marks)| {
+        let mut scan = |places: &mut dyn Iterator<Item = usize>| {
+            let mut away = FAR;
+            for place in places {
+                away = if marks[place] { 0 } else { away.saturating_add(1) };
+                if away <= reach {
+                    squares[place] = squares[place].min(away * away);
+                }
+            }
+        };
+        scan(&mut (0..width));
+        scan(&mut (0..width).rev());
+    });
+    let (height, reach) = (marks.len() / width, reach as usize);
+    let mut squares = vec![FAR; marks.len()];
+    squares.par_chunks_mut(width).enumerate().for_each(|(y, squares)| {
+        for other in y.saturating_sub(reach)..(y + reach + 1).min(height) {
+            let down = (other.abs_diff(y) * other.abs_diff(y)) as u32;
+            for (square, row) in squares.iter_mut().zip(&rows[other * width..]) {
+                *square = (*square).min(row.saturating_add(down));
+            }
+        }
+    });
+    squares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Random(u32);
+
+    impl Random {
+        fn next(&mut self) -> u32 {
+            self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            self.0 >> 16
+        }
+    }
+
+    fn colors(random: &mut Random, count: usize) -> Vec<Weighed> {
+        let color =
+            |_| if random.next() % 3 == 0 { (Vec4::ZERO, 0.0) } else { (Vec4::splat(random.next() as f32), 1.0) };
+        (0..count).map(color).collect()
+    }
+
+    /// Sums of sums along rows, one after the other from place to place.
+    fn plain(all: &[Weighed], width: usize, weight: impl Fn(usize, usize, usize) -> f32) -> Vec<Weighed> {
+        let height = all.len() / width;
+        let row = |y: usize, x: usize| {
+            (0..width).fold((Vec4::ZERO, 0.0), |mut sum, other| {
+                add(&mut sum, &all[y * width + other], weight(0, x, other));
+                sum
+            })
+        };
+        let at = |place: usize| {
+            (0..height).fold((Vec4::ZERO, 0.0), |mut sum, other| {
+                add(&mut sum, &row(other, place % width), weight(1, place / width, other));
+                sum
+            })
+        };
+        (0..all.len()).map(at).collect()
+    }
+
+    #[test]
+    fn means_are_those_of_single_places() {
+        let random = &mut Random(1);
+        let (width, height) = (23, 17);
+        let all = colors(random, width * height);
+        let weights = [1.0, 0.75, 0.5, 0.125];
+        let weight = |_: usize, at: usize, other: usize| weights.get(at.abs_diff(other)).copied().unwrap_or(0.0);
+        assert_eq!(bell_sums(&all, width, &weights), plain(&all, width, weight));
+        for (side, first) in [(1, [0, 0]), (3, [2, 1]), (5, [0, 4]), (201, [150, 190]), (201, [0, 0])] {
+            let weight = |axis: usize, at: usize, other: usize| {
+                let cell = |at: usize| (at + first[axis]) / side;
+                f32::from(u8::from(cell(at) == cell(other)))
+            };
+            assert_eq!(
+                cell_sums(&all, width, side, first[0], first[1]),
+                plain(&all, width, weight),
+                "{side} {first:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn distances_are_those_to_the_nearest_mark() {
+        let random = &mut Random(2);
+        let (width, height) = (31, 19);
+        for reach in [0, 1, 3, 50] {
+            let marks: Vec<bool> = (0..width * height).map(|_| random.next() % 37 == 0).collect();
+            let nearest = |place: usize| {
+                let away = |other: usize| {
+                    [place % width, place / width]
+                        .map(|at| at as i64)
+                        .into_iter()
+                        .zip([other % width, other / width])
+                        .map(|(at, other)| (at - other as i64).abs())
+                };
+                let near = (0..marks.len()).filter(|other| marks[*other] && away(*other).all(|away| away <= reach));
+                near.map(|other| away(other).map(|away| away * away).sum::<i64>() as u32).min().unwrap_or(FAR)
+            };
+            let expected: Vec<u32> = (0..marks.len()).map(nearest).collect();
+            assert_eq!(squared_distances(&marks, width, reach as u32), expected, "{reach}");
+        }
+    }
 }

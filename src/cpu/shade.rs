@@ -2,6 +2,8 @@
 
 mod cap;
 
+use std::sync::atomic::AtomicU64;
+
 use glam::{DAffine3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, d3, g2, g3, g4, light, v2, v3, v4};
@@ -9,7 +11,7 @@ use super::custom::Site;
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::{Fragment, cap_maker};
-use crate::plan::{Instance, Item, LensSet, Op, Plan};
+use crate::plan::{Instance, Item, LensSet, Op, OwnSurface, Plan};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
@@ -25,6 +27,12 @@ pub struct Shader<'a> {
     /// Of each item, for each of the plan's channels, where it has one.
     values: Vec<Vec<Option<VertexValues<'a>>>>,
     forward: Vec3,
+    /// Loop iterations that the user's own filters have taken for the picture.
+    pub spent: AtomicU64,
+    /// Of each body, where caps show its own colours.
+    own: Vec<Option<OwnSurface>>,
+    /// Of each instance, its body.
+    bodies: Vec<Option<u32>>,
 }
 
 /// From local space to the world's axes around the eye as shown: for points, and for normals.
@@ -155,7 +163,14 @@ impl<'a> Shader<'a> {
             };
             plan.channels.iter().map(of).collect()
         };
+        let mut bodies = vec![None; plan.instances.len()];
+        for (number, body) in (0u32..).zip(&plan.bodies) {
+            body.members.iter().for_each(|member| bodies[member.instance] = Some(number));
+        }
         Self {
+            spent: AtomicU64::new(0),
+            own: plan.bodies.iter().map(|body| OwnSurface::new(scene, plan, body)).collect(),
+            bodies,
             values: plan.items.iter().map(values).collect(),
             forward: plan.view.forward.as_vec3(),
             scene,
@@ -353,10 +368,10 @@ impl<'a> Shader<'a> {
     }
 
     /// Where a filter of the user's own acts on what is shown at `position`; `None` for any other.
-    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'a>> {
+    fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'_>> {
         let eye = self.plan.view.eye;
         let from_eye = || (source().transform_point3(position.as_dvec3() + eye) - eye).as_vec3();
-        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_eye() })
+        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_eye(), spent: &self.spent })
     }
 
     /// What a filter looks up; `None` where it does not act, as the surface has no such value. `source`: from the shown

@@ -26,6 +26,9 @@ pub const MEMBERS: [(&str, usize); 12] = [
 /// Loop iterations that one call of a filter may take, all its loops and functions together; past them loops end.
 pub const LOOP_BUDGET: u32 = 4096;
 
+/// Numbers that an iteration may compute; one that computes more counts as several.
+pub const NUMBERS_OF_AN_ITERATION: u64 = 64;
+
 /// `Surface` of the contract, its numbers without gaps. Colours are linear light.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]

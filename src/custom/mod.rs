@@ -146,17 +146,35 @@ impl Custom {
 
     /// `filter_surface`; the surface itself where the file has no such function. `words` as [`Custom::values`] gives them.
     pub fn surface(&self, surface: &SurfaceValue, words: &[u32]) -> SurfaceValue {
+        self.surface_spending(surface, words, &mut 0)
+    }
+
+    /// The same; adds to `spent` the loop iterations that it took, as [`LOOP_BUDGET`] counts them.
+    pub(crate) fn surface_spending(&self, surface: &SurfaceValue, words: &[u32], spent: &mut u32) -> SurfaceValue {
         let Some(entry) = &self.surface else { return *surface };
         let numbers: [u32; SURFACE_WORDS] = bytemuck::cast(*surface);
-        self.program.call(entry, &[&numbers, words], |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
+        self.program
+            .call(entry, &[&numbers, words], spent, |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
     }
 
     /// `filter_color` of a lit colour in linear light; the colour itself where the file has no such function.
     pub fn color(&self, color: [f32; 3], surface: &SurfaceValue, words: &[u32]) -> [f32; 3] {
+        self.color_spending(color, surface, words, &mut 0)
+    }
+
+    /// The same; `spent` as in [`Custom::surface_spending`].
+    pub(crate) fn color_spending(
+        &self,
+        color: [f32; 3],
+        surface: &SurfaceValue,
+        words: &[u32],
+        spent: &mut u32,
+    ) -> [f32; 3] {
         let Some(entry) = &self.color else { return color };
         let (color, numbers): ([u32; 3], [u32; SURFACE_WORDS]) = (bytemuck::cast(color), bytemuck::cast(*surface));
-        self.program
-            .call(entry, &[&color, &numbers, words], |result| *bytemuck::from_bytes(bytemuck::cast_slice(result)))
+        self.program.call(entry, &[&color, &numbers, words], spent, |result| {
+            *bytemuck::from_bytes(bytemuck::cast_slice(result))
+        })
     }
 }
 
@@ -186,10 +204,14 @@ fn read(text: &Text) -> Result<Custom, InputError> {
     check::words(text)?;
     let mut module = naga::front::wgsl::parse_str(&text.whole).map_err(|error| naga_errors::not_wgsl(text, &error))?;
     check::check(text, &module)?;
-    fuel::add(&mut module);
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
-        .validate(&module)
-        .map_err(|error| naga_errors::not_valid(text, &error))?;
+    fuel::close(&mut module);
+    let valid = |module: &naga::Module| {
+        let validated = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module);
+        validated.map_err(|error| naga_errors::not_valid(text, &error))
+    };
+    let info = valid(&module)?;
+    fuel::add(&mut module, &info);
+    let info = valid(&module)?;
     let signature = signature::find(text, &module)?;
     let params = signature.params.map(|ty| params::read(text, &module, ty)).transpose()?.unwrap_or_default();
     let (program, calls) = compile(text, &module, &info, &signature)?;

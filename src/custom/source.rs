@@ -20,10 +20,7 @@ impl Text {
     pub fn new(source: &str, name: &str) -> Self {
         // Some editors put a byte order mark in front.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
-        Self {
-            user: Source { name: name.to_owned(), text: source.into() },
-            whole: format!("{}{source}", contract::WGSL),
-        }
+        Self { user: Source::new(name, source), whole: format!("{}{source}", contract::WGSL) }
     }
 
     /// The place in the user's file, if it lies there; of several lines, the first.

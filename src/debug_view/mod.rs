@@ -14,7 +14,7 @@ mod sheet;
 
 pub use section::Row;
 
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, InFront};
 use crate::plan::Plan;
 
 /// What a debug view shows.
@@ -22,18 +22,18 @@ use crate::plan::Plan;
 pub enum DebugView {
     /// How many layers each pixel's ray has.
     Layers,
-    /// The region of each pixel's visible fragment.
+    /// The region of each pixel's nearest surface, opaque or not.
     Regions,
     /// Who acts on each pixel's visible fragment: the topmost lens, striped with those below.
     Order,
 }
 
 /// The debug view of a picture of `plan` with these maps, as large as it needs to be.
-pub fn draw(view: DebugView, plan: &Plan, picture: &Frame, aovs: &Aovs) -> Frame {
+pub fn draw(view: DebugView, plan: &Plan, picture: &Frame, aovs: &Aovs, in_front: &InFront) -> Frame {
     match view {
-        DebugView::Layers => layers::draw(aovs, picture.size),
-        DebugView::Regions => regions::draw(plan, picture, aovs),
-        DebugView::Order => order::draw(plan, picture, aovs),
+        DebugView::Layers => layers::draw(picture, aovs),
+        DebugView::Regions => regions::draw(plan, picture, &in_front.nearest_regions(aovs)),
+        DebugView::Order => order::draw(plan, picture, aovs, in_front),
     }
 }
 

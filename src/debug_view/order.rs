@@ -3,14 +3,15 @@
 use super::legend::{Entry, Legend, share_text};
 use super::palette::{Rgb, dimmed, distinct, mix};
 use super::sheet::Map;
-use crate::frame::{Aovs, Frame};
+use crate::frame::{Aovs, Frame, InFront};
+use crate::output::Actor;
 use crate::plan::{LensSet, Plan};
 
 /// Pixels of a stripe of the topmost lens, and of all stripes of those below together.
 const STRIPE: i32 = 8;
 const COVER: f32 = 0.72;
 
-pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs) -> Frame {
+pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs, in_front: &InFront) -> Frame {
     let stack = |at: usize| aovs.region(at).map_or(LensSet::EMPTY, |region| region.stack);
     let color = |at: usize, place: [i32; 2]| match acting(stack(at), place) {
         Some(rank) => mix(dimmed(picture.pixels[at]), distinct(rank), COVER),
@@ -25,7 +26,7 @@ pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs) -> Frame {
         "visible surface; thin stripes: those",
         "below it. Numbers: how many act.",
     ];
-    let legend = Legend::new("Order, highest first", &notes, entries(plan, aovs));
+    let legend = Legend::new("Order, highest first", &notes, entries(plan, aovs, in_front));
     Map { size: picture.size, values: &aovs.regions, color: &color, label: &label }.with_legend(&legend)
 }
 
@@ -43,7 +44,7 @@ fn acting(stack: LensSet, [x, y]: [i32; 2]) -> Option<usize> {
 }
 
 /// The rules that act somewhere, the last of the file first, then all lenses from the highest down.
-fn entries(plan: &Plan, aovs: &Aovs) -> Vec<Entry> {
+fn entries(plan: &Plan, aovs: &Aovs, in_front: &InFront) -> Vec<Entry> {
     let lenses = plan.lenses.len();
     let mut pixels = vec![0usize; lenses + plan.rules.len()];
     for at in 0..aovs.regions.len() {
@@ -53,13 +54,21 @@ fn entries(plan: &Plan, aovs: &Aovs) -> Vec<Entry> {
     }
     let entry = |rank: usize| {
         let name = match plan.rule_of(rank) {
-            Some(rule) => format!("rule {rule}"),
+            Some(_) => Actor::of(plan, rank).to_string(),
             None => format!("{}. {}", rank + 1, plan.lenses[rank].name),
         };
         let share = match pixels[rank] {
-            0 => "  acts nowhere in view".to_string(),
+            0 => "  on nothing visible".to_string(),
             count => share_text(count, aovs.regions.len()),
         };
+        let share_of = |counts: &[u64]| share_text(counts[rank] as usize, aovs.regions.len());
+        let mut more_lines = Vec::new();
+        if in_front.removes[rank] > 0 {
+            more_lines.push(format!("takes something away:{}", share_of(&in_front.removes)));
+        }
+        if in_front.seen_through[rank] > 0 {
+            more_lines.push(format!("on what is seen through:{}", share_of(&in_front.seen_through)));
+        }
         let filters: Vec<&str> = plan.filter_names(rank).collect();
         let more = match plan.lenses.get(rank) {
             Some(lens) if lens.overrides => "; overrides all below".to_string(),
@@ -67,7 +76,9 @@ fn entries(plan: &Plan, aovs: &Aovs) -> Vec<Entry> {
             _ => String::new(),
         };
         let color: Rgb = distinct(rank);
-        Entry { color, lines: vec![name + &share, filters.join(", ") + &more] }
+        let lines = [name + &share, filters.join(", ") + &more].into_iter().chain(more_lines);
+        Entry { color, lines: lines.collect() }
     };
-    (0..pixels.len()).rev().filter(|rank| *rank < lenses || pixels[*rank] > 0).map(entry).collect()
+    let is_listed = |rank: &usize| *rank < lenses || pixels[*rank] > 0 || in_front.removes[*rank] > 0;
+    (0..pixels.len()).rev().filter(is_listed).map(entry).collect()
 }

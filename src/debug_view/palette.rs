@@ -51,7 +51,7 @@ pub struct RegionColors {
 impl RegionColors {
     /// Those of the plan and of a picture are numbered as in `explain`; `more` have a colour only.
     pub fn new(plan: &Plan, aovs: &Aovs, more: impl Iterator<Item = Region>) -> Self {
-        let numbered = crate::output::numbered(plan, plan.regions().iter().chain(&aovs.table));
+        let numbered = crate::output::numbered(plan, &plan.regions().regions, &aovs.table);
         let mut known = HashMap::from([(Region::PLAIN, (Some(0), [92, 97, 106]))]);
         for (id, region) in numbered {
             known.entry(region).or_insert((Some(id), distinct(id)));

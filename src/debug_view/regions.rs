@@ -1,4 +1,4 @@
-//! The region of each pixel's visible fragment, over the picture.
+//! The region of each pixel's nearest surface, over the picture.
 
 use super::legend::{Entry, Legend, region_lines, share_text};
 use super::palette::{RegionColors, dimmed, mix};
@@ -21,7 +21,11 @@ pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs) -> Frame {
         let region = aovs.table.get(index as usize).filter(|region| **region != Region::PLAIN)?;
         Some(colors.id(region)?.to_string())
     };
-    let legend = Legend::new("Regions", &["of the visible surfaces"], entries(plan, aovs, &colors));
+    let legend = Legend::new(
+        "Regions",
+        &["of the nearest surfaces that are", "left, opaque or not"],
+        entries(plan, aovs, &colors),
+    );
     Map { size: picture.size, values: &aovs.regions, color: &color, label: &label }.with_legend(&legend)
 }
 

@@ -2,18 +2,21 @@
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
-use super::{Coverage, Explanation, rule_line};
+use super::{Coverage, Explanation};
 use crate::output::Entry;
 use crate::plan::{LensSet, Reasons, Region};
 use crate::spec::Spec;
 
-/// An object with `order` (lowest first), `view` (null without a picture), `regions`, `undecided`, `warnings`.
+/// An object with `order` (lowest first), `view` (null without a picture), `regions`, `untold` (how many more regions occur,
+/// none of them in view), `ended` (why the search for regions ended early, or null), `undecided`, `warnings`.
 impl Serialize for Explanation<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut object = serializer.serialize_struct("Explanation", 5)?;
+        let mut object = serializer.serialize_struct("Explanation", 7)?;
         object.serialize_field("order", &self.order_json())?;
         object.serialize_field("view", &self.coverage.as_ref().map(view_json))?;
         object.serialize_field("regions", &RegionList(self))?;
+        object.serialize_field("untold", &self.untold)?;
+        object.serialize_field("ended", &self.account.ended.map(|ended| ended.to_string()))?;
         object.serialize_field("undecided", &self.account.undecided)?;
         object.serialize_field("warnings", &self.plan.warnings)?;
         object.end()
@@ -32,6 +35,19 @@ struct OrderedLens<'a> {
     hides: Vec<&'a str>,
     /// Null for the lowest.
     above_previous_because: Option<String>,
+    /// Null without a picture.
+    in_view: Option<InViewJson>,
+}
+
+/// What a lens does in a picture.
+#[derive(serde::Serialize)]
+struct InViewJson {
+    /// Where it acts on the visible fragment.
+    visible: Share,
+    /// Where it acts on something that is seen through.
+    seen_through: Share,
+    /// Where it takes something away in front of what is visible.
+    removes: Share,
 }
 
 /// A picture as a whole.
@@ -66,6 +82,8 @@ struct RegionJson<'a> {
     /// Of the picture; null without one.
     #[serde(flatten)]
     share: Option<Share>,
+    /// Where something of it is seen through; null without a picture.
+    seen_through: Option<Share>,
 }
 
 /// A lens of a region that does not act there.
@@ -96,10 +114,11 @@ impl Serialize for RegionList<'_> {
             id: *id,
             lenses: plan.names(region.set),
             stack: crate::output::stack(plan, *region),
-            rule_line: region.rule(plan).map(|rule| rule_line(explanation.spec, rule)),
+            rule_line: region.rule(plan).map(|rule| plan.rules[rule].line),
             hidden: hidden_json(&reasons, region),
             order: order_json(&reasons, region.stack),
             share: explanation.coverage.as_ref().map(|coverage| Share::new(coverage, coverage.pixels(region))),
+            seen_through: explanation.coverage.as_ref().map(|c| Share::new(c, c.seen_through(region))),
         }))
     }
 }
@@ -120,6 +139,11 @@ impl Explanation<'_> {
             overrides: lens.overrides,
             hides: self.plan.names(lens.hides),
             above_previous_because: rank.checked_sub(1).map(|below| self.account.order[below].to_string()),
+            in_view: self.coverage.as_ref().map(|coverage| InViewJson {
+                visible: Share::new(coverage, coverage.acts(rank)),
+                seen_through: Share::new(coverage, coverage.in_front.seen_through[rank]),
+                removes: Share::new(coverage, coverage.in_front.removes[rank]),
+            }),
         };
         self.plan.lenses.iter().enumerate().map(lens).collect()
     }

@@ -6,13 +6,13 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::json::{HiddenJson, NeighboursJson, hidden_json, order_json};
-use super::{actor, lenses, rule_line};
+use super::{actor, lenses};
 use crate::output::{Actor, Entry};
 use crate::pick::{NamedSurface, places};
 use crate::pixel::{Fragment, PixelReport, Removed, Survivor, cap_maker};
-use crate::plan::{Plan, Reasons, Region, filter_name};
-use crate::scene::Scene;
-use crate::spec::{Filter, Spec};
+use crate::plan::{LensSet, Plan, Reasons, Region, filter_name};
+use crate::scene::{Scene, Selections};
+use crate::spec::{By, Filter, Matches, Spec};
 
 /// A pixel's report with all that its account needs. `Display` gives the text, `Serialize` the JSON.
 pub struct PixelAccount<'a> {
@@ -49,7 +49,7 @@ impl Display for PixelAccount<'_> {
             writeln!(f, "fragments in front that lenses remove, nearest first: {}", report.removed.len())?;
         }
         for removed in &report.removed {
-            let remover = |rank| format!("{} ({})", actor(self.spec, plan, rank), self.remover(rank));
+            let remover = |rank| format!("{} ({})", actor(plan, rank), self.remover(rank));
             let by: Vec<String> = removed.by.iter().map(remover).collect();
             self.write_fragment(&removed.fragment, "", &format!("; removed by {}", by.join(", ")), &reasons, f)?;
         }
@@ -70,7 +70,7 @@ impl PixelAccount<'_> {
     }
 
     fn stack_text(&self, region: &Region) -> String {
-        let stack: Vec<String> = region.stack.iter().map(|rank| actor(self.spec, self.plan, rank)).collect();
+        let stack: Vec<String> = region.stack.iter().map(|rank| actor(self.plan, rank)).collect();
         if stack.is_empty() { "none".into() } else { stack.join(" < ") }
     }
 
@@ -88,7 +88,7 @@ impl PixelAccount<'_> {
         let surface = NamedSurface::new(self.scene, self.plan, instance, triangle, region);
         let (node, material) = (surface.node.name, surface.material.name);
         let what = match cap_maker(triangle) {
-            Some(maker) => format!("cap of {}", actor(self.spec, self.plan, maker)),
+            Some(maker) => format!("cap of {}", actor(self.plan, maker)),
             None => format!("triangle {triangle}"),
         };
         writeln!(f, "  {depth:12.5}  {node} ({material}), {what}{more}")?;
@@ -97,7 +97,45 @@ impl PixelAccount<'_> {
             let place = places(self.plan, self.pixel, instance, depth).1;
             writeln!(f, "{INDENT}moved by {} from {}", surface.moved_by.join(", "), point_text(place))?;
         }
+        if let Some(maker) = cap_maker(triangle) {
+            let below = region.set & self.plan.below_cap(maker);
+            if !below.is_empty() {
+                let by = actor(self.plan, maker);
+                writeln!(f, "{INDENT}a cap keeps the look of {by}: not on it {}", self.plan.names(below).join(", "))?;
+            }
+        }
+        for NotThere { lens, because } in self.not_there(fragment) {
+            writeln!(f, "{INDENT}not in {lens}: {because}")?;
+        }
         f.write_str(&reasons.lines(&region, INDENT))
+    }
+
+    /// The lenses that are around the ray at a fragment, but not there for it, and why.
+    fn not_there(&self, fragment: &Fragment) -> Vec<NotThere<'_>> {
+        let item = &self.plan.items[self.plan.instances[fragment.instance as usize].item];
+        let depth = f64::from(fragment.depth);
+        let around = self.report.layers.iter().rev().find(|start| start.depth <= depth);
+        let around = around.map_or(LensSet::EMPTY, |start| start.set).minus(fragment.region.set);
+        let known = Selections::default();
+        let because = |rank: usize| {
+            let lens = &self.spec.lenses[self.plan.lenses[rank].index];
+            let line = |matches: &Matches| {
+                let first = matches.nodes.iter().chain(&matches.materials).map(|p| p.span.start).min();
+                self.spec.source.line(first.unwrap_or_default())
+            };
+            if !item.scope.contains(rank) && !item.shown_by.contains(rank) {
+                return Some(match item.subject(self.scene, &known).is_in(&lens.except) {
+                    true => format!("its `except` in line {} names this node or material", line(&lens.except)),
+                    false => {
+                        format!("its `only` in line {} names neither this node nor its material", line(&lens.only))
+                    }
+                });
+            }
+            let by_object = lens.by == By::Object && !item.object.contains(rank);
+            by_object.then(|| "it takes whole objects, and this one's centre is outside".into())
+        };
+        let lenses = around.iter().filter_map(|rank| Some((self.plan.lenses.get(rank)?, because(rank)?)));
+        lenses.map(|(lens, because)| NotThere { lens: &lens.name, because }).collect()
     }
 
     /// The filter by which a lens takes a fragment away; one that shows something replaces all the rest.
@@ -112,11 +150,7 @@ impl PixelAccount<'_> {
     }
 
     fn remover_entry(&self, rank: usize) -> Entry {
-        let by = match self.plan.rule_of(rank) {
-            Some(rule) => Actor::Rule(rule),
-            None => Actor::Lens(self.plan.lenses[rank].name.clone()),
-        };
-        Entry { by, filter: self.remover(rank) }
+        Entry { by: Actor::of(self.plan, rank), filter: self.remover(rank) }
     }
 
     fn fragment_json<'a>(&'a self, fragment: &Fragment, reasons: &Reasons<'a>) -> FragmentJson<'a> {
@@ -127,9 +161,10 @@ impl PixelAccount<'_> {
             depth,
             position,
             place,
-            rule_line: region.rule(self.plan).map(|rule| rule_line(self.spec, rule)),
+            rule_line: region.rule(self.plan).map(|rule| self.plan.rules[rule].line),
             hidden: hidden_json(reasons, &region),
             order: order_json(reasons, region.stack),
+            not_in: self.not_there(fragment),
         }
     }
 }
@@ -173,6 +208,15 @@ struct FragmentJson<'a> {
     rule_line: Option<usize>,
     hidden: Vec<HiddenJson<'a>>,
     order: Vec<NeighboursJson<'a>>,
+    /// Lenses around the ray that are not there for it.
+    not_in: Vec<NotThere<'a>>,
+}
+
+/// A lens that is around the ray but not there for a fragment.
+#[derive(Serialize)]
+struct NotThere<'a> {
+    lens: &'a str,
+    because: String,
 }
 
 #[derive(Serialize)]

@@ -3,6 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{Coverage, Explanation, actor, lenses};
+use crate::frame::InFront;
 use crate::plan::{Account, Plan, Reasons, Region};
 use crate::spec::Spec;
 
@@ -52,6 +53,9 @@ impl Explanation<'_> {
             if rank > 0 {
                 writeln!(f, "       above {}: {}", plan.lenses[rank - 1].name, account.order[rank - 1])?;
             }
+            if let Some(coverage) = &self.coverage {
+                writeln!(f, "       in view: {}", in_view_text(coverage, rank))?;
+            }
         }
         if plan.lenses.is_empty() {
             writeln!(f, "  no lens is enabled")?;
@@ -60,29 +64,47 @@ impl Explanation<'_> {
     }
 
     fn write_regions(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "regions that occur: {}", self.regions.len())?;
+        writeln!(f, "regions that occur: {}", self.count())?;
         let reasons = Reasons::new(self.spec, self.plan);
         for (_, region) in &self.regions {
             writeln!(f, "  {}", lenses(self.plan, region))?;
             self.write_actors(region, &reasons, "      ", f)?;
         }
-        Ok(())
+        self.write_rest("  ", f)
+    }
+
+    /// How many regions occur, as far as is known.
+    fn count(&self) -> String {
+        let count = self.regions.len() + self.untold;
+        if self.account.ended.is_some() { format!("at least {count}") } else { count.to_string() }
+    }
+
+    /// What is not listed.
+    fn write_rest(&self, indent: &str, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.untold > 0 {
+            let where_not = if self.coverage.is_some() { ", none of them in view" } else { "" };
+            writeln!(f, "{indent}and {} more{where_not}", self.untold)?;
+        }
+        self.account.ended.map_or(Ok(()), |ended| writeln!(f, "{indent}{ended}"))
     }
 
     /// The regions with their numbers and their shares of a picture, in columns.
     fn write_table(&self, coverage: &Coverage, f: &mut Formatter<'_>) -> fmt::Result {
         let [width, height] = coverage.size;
         let by = &coverage.backend;
-        writeln!(
-            f,
-            "regions that occur: {}; shares of the picture's {width} x {height} pixels ({by})",
-            self.regions.len()
-        )?;
+        writeln!(f, "regions that occur: {}; shares of the picture's {width} x {height} pixels ({by})", self.count())?;
         writeln!(f, "  id        share  lenses")?;
         let reasons = Reasons::new(self.spec, self.plan);
         for (id, region) in &self.regions {
-            let share = share_text(coverage, coverage.pixels(region));
-            writeln!(f, "{id:>4}  {share:>11}  {}", lenses(self.plan, region))?;
+            let through = match coverage.seen_through(region) {
+                0 => String::new(),
+                pixels => format!("; seen through in {}", share_text(coverage, pixels)),
+            };
+            let share = match coverage.pixels(region) {
+                0 if !through.is_empty() => "-".into(),
+                pixels => share_text(coverage, pixels),
+            };
+            writeln!(f, "{id:>4}  {share:>11}  {}{through}", lenses(self.plan, region))?;
             self.write_actors(region, &reasons, "                   ", f)?;
         }
         for (id, pixels, what) in
@@ -90,19 +112,35 @@ impl Explanation<'_> {
         {
             writeln!(f, "{id:>4}  {:>11}  {what}", share_text(coverage, pixels))?;
         }
-        Ok(())
+        self.write_rest("                   ", f)
     }
 
     /// The stack of a region, who is hidden, and why.
     fn write_actors(&self, region: &Region, reasons: &Reasons, indent: &str, f: &mut Formatter<'_>) -> fmt::Result {
         let acting = |rank: usize| {
             let filters: Vec<&str> = self.plan.filter_names(rank).collect();
-            format!("{} ({})", actor(self.spec, self.plan, rank), filters.join(", "))
+            format!("{} ({})", actor(self.plan, rank), filters.join(", "))
         };
         let stack: Vec<String> = region.stack.iter().map(acting).collect();
         writeln!(f, "{indent}stack: {}", stack.join(" < "))?;
         f.write_str(&reasons.lines(region, indent))
     }
+}
+
+/// What a lens does in a picture, in shares of its pixels.
+fn in_view_text(coverage: &Coverage, rank: usize) -> String {
+    let InFront { removes, seen_through, .. } = &coverage.in_front;
+    let parts = [
+        ("acts on what is visible in", coverage.acts(rank)),
+        ("on what is seen through in", seen_through[rank]),
+        ("takes something away in", removes[rank]),
+    ];
+    let parts: Vec<String> = parts
+        .into_iter()
+        .filter(|(_, pixels)| *pixels > 0)
+        .map(|(what, pixels)| format!("{what} {}", share_text(coverage, pixels)))
+        .collect();
+    if parts.is_empty() { "it does nothing".into() } else { parts.join(", ") }
 }
 
 fn share_text(coverage: &Coverage, pixels: u64) -> String {

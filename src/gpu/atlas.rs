@@ -2,8 +2,8 @@
 //!
 //! Shaders address texels themselves (`shaders/appearance/texture.wgsl`), so levels may lie anywhere.
 
-use super::Error;
 use super::records::TextureInfo;
+use super::{Error, alloc};
 use crate::scene::TextureSet;
 
 /// The pages, seen as stored and with sRGB decoded, and where everything is.
@@ -79,7 +79,7 @@ impl Atlas {
             let allowed = limits.max_texture_array_layers;
             return Err(Error::TooManyTextures { needed: shelves.pages, page: limit, allowed });
         }
-        let texture = create(device, &shelves);
+        let texture = create(device, &shelves)?;
         for (level, place) in levels().zip(&shelves.places) {
             write(queue, &texture, [level.width, level.height], place, bytemuck::cast_slice(&level.pixels));
         }
@@ -95,8 +95,8 @@ impl Atlas {
     }
 }
 
-fn create(device: &wgpu::Device, shelves: &Shelves) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
+fn create(device: &wgpu::Device, shelves: &Shelves) -> Result<wgpu::Texture, Error> {
+    let descriptor = wgpu::TextureDescriptor {
         label: Some("texture pages"),
         size: wgpu::Extent3d { width: shelves.size[0], height: shelves.size[1], depth_or_array_layers: shelves.pages },
         mip_level_count: 1,
@@ -105,7 +105,8 @@ fn create(device: &wgpu::Device, shelves: &Shelves) -> wgpu::Texture {
         format: FORMAT,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[FORMAT_SRGB],
-    })
+    };
+    alloc::texture(device, "the scene's textures", &descriptor)
 }
 
 fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, size: [u32; 2], place: &Place, bytes: &[u8]) {

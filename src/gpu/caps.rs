@@ -52,7 +52,7 @@ pub fn choose_named(name: Option<&str>) -> Result<AdapterChoice, Error> {
         return Err(Error::NoAdapter { wanted, found: names(&found) });
     };
     if let Some(what) = lacking(adapter) {
-        return Err(Error::Lacking { adapter: describe(adapter), what });
+        return Err(Error::Lacking { adapter: format!("adapter {}", describe(adapter)), what });
     }
     let reason = match (name, is_hardware(adapter)) {
         (Some(_), _) => "it was asked for by name",
@@ -93,11 +93,23 @@ pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
     if adapter.features().contains(TIMESTAMPS) { TIMESTAMPS } else { wgpu::Features::empty() }
 }
 
+/// Fails where a host's device was opened with smaller limits than frames need.
+pub fn check_limits(device: &wgpu::Device) -> Result<(), Error> {
+    let allowed = device.limits();
+    match lacking_limits(&allowed) {
+        Some(what) => Err(Error::Lacking { adapter: "device that was given".into(), what }),
+        None => Ok(()),
+    }
+}
+
 /// What an adapter does not have enough of, in words. No feature beyond WebGPU's own is needed.
 fn lacking(adapter: &wgpu::Adapter) -> Option<String> {
-    let allowed = adapter.limits();
+    lacking_limits(&adapter.limits())
+}
+
+fn lacking_limits(allowed: &wgpu::Limits) -> Option<String> {
     let mut lacks = None;
-    required_limits(&allowed).check_limits_with_fail_fn(&allowed, true, |name, needed, allowed| {
+    required_limits(allowed).check_limits_with_fail_fn(allowed, true, |name, needed, allowed| {
         lacks = Some(format!("`{name}`: it has {allowed}, and {needed} are needed"));
     });
     lacks

@@ -32,7 +32,7 @@ const MOST_PLANES: usize = 256;
 
 /// Whether a mesh is asked as the half-spaces of its triangles' planes.
 pub fn has_planes(mesh: &MeshSolid) -> bool {
-    mesh.is_convex && mesh.triangles.len() <= MOST_PLANES
+    mesh.is_convex && mesh.tree.triangles.len() <= MOST_PLANES
 }
 
 /// Whether a ray enters and leaves a part once at the most, as the device asks it.
@@ -105,7 +105,7 @@ impl Cells {
         if has_planes(mesh) {
             return Some(cells);
         }
-        let projected = ProjectedMesh::new(&faces, &mesh.triangles, view.is_perspective(), window);
+        let projected = ProjectedMesh::new(&faces, &mesh.tree.triangles, view.is_perspective(), window);
         Some(Self { projected: Some(projected), ..cells })
     }
 
@@ -215,7 +215,7 @@ impl Projected {
             (!view.is_perspective() || depth >= view.near).then_some((p - origin, depth))
         };
         match &solid.form {
-            Form::HalfSpaces { planes, .. } if !solid.is_flat => {
+            Form::HalfSpaces { planes, .. } if solid.is_bounded() => {
                 let Polyhedron { faces } = Polyhedron::from_planes(planes).ok()?;
                 let corners: Option<Vec<_>> = faces.iter().flat_map(|(_, corners)| corners).map(project).collect();
                 let (points, depths): (Vec<DVec2>, Vec<f64>) = corners?.into_iter().unzip();
@@ -235,13 +235,13 @@ impl Projected {
                 })
             }
             Form::Mesh(mesh) => {
-                let vertices: Option<Vec<_>> = mesh.vertices.par_iter().map(project).collect();
+                let vertices: Option<Vec<_>> = mesh.tree.vertices.par_iter().map(project).collect();
                 let (points, depths) = vertices?.into_iter().unzip();
-                let count = mesh.triangles.len() as u32;
+                let count = mesh.tree.triangles.len() as u32;
                 Some(Self {
                     points,
                     depths,
-                    corners: mesh.triangles.as_flattened().to_vec(),
+                    corners: mesh.tree.triangles.as_flattened().to_vec(),
                     starts: (0..=count).map(|face| 3 * face).collect(),
                     numbers: (0..count).collect(),
                     is_mesh: !has_planes(mesh),

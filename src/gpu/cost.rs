@@ -6,7 +6,7 @@ use super::headless::smaller;
 use super::job::Job;
 use super::readback::Readback;
 use super::renderer::Renderer;
-use super::{Error, Headless, RenderOptions, Window, caps};
+use super::{Error, Headless, RenderOptions, Window, alloc, caps};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -64,7 +64,7 @@ impl Headless {
         let mut sum = FrameCost { stages: stages.then_some([0.0; STAGES.len()]), ..FrameCost::default() };
         let mut windows = vec![Window::whole(&plan.view)];
         while let Some(window) = windows.pop() {
-            let view = self.target(window.size).create_view(&Default::default());
+            let view = self.target(window.size)?.create_view(&Default::default());
             let start = Instant::now();
             let job = match renderer.prepare(&self.device, scene, plan, window, options) {
                 Ok(job) => job,
@@ -108,7 +108,7 @@ impl Headless {
             job.encode_resolve(&mut encoder, sample, view);
             mark(&mut encoder, Some(2));
         }
-        let times = marks.map(|marks| marks.read(&self.device, &mut encoder));
+        let times = marks.map(|marks| marks.read(&self.device, &mut encoder)).transpose()?;
         self.queue.submit([encoder.finish()]);
         self.wait()?;
         Ok(times)
@@ -137,14 +137,15 @@ impl Marks {
         self.ended.push(ended);
     }
 
-    fn read(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) -> Readback {
+    fn read(&self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder) -> Result<Readback, Error> {
         let count = self.ended.len() as u32;
-        let ticks = device.create_buffer(&wgpu::BufferDescriptor {
+        let descriptor = wgpu::BufferDescriptor {
             label: Some("marks"),
             size: 8 * u64::from(count),
             usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
-        });
+        };
+        let ticks = alloc::buffer(device, "the marks of stages", &descriptor)?;
         encoder.resolve_query_set(&self.queries, 0..count, &ticks, 0);
         Readback::of_buffer(device, encoder, &ticks)
     }

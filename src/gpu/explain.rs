@@ -112,8 +112,8 @@ impl Headless {
             job.encode_layers(&mut encoder, sample);
             job.encode_visibility(&mut encoder, sample);
             job.encode_explain(&mut encoder, sample, &pass);
-            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
-            let copy = Readback::of_buffer(&self.device, &mut encoder, &pass.buffer);
+            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed)?;
+            let copy = Readback::of_buffer(&self.device, &mut encoder, &pass.buffer)?;
             self.queue.submit([encoder.finish()]);
             let needed = Room::needed(&counts.bytes(&self.device)?);
             let bytes = copy.bytes(&self.device)?;

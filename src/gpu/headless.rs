@@ -9,8 +9,8 @@ use super::readback::{Readback, row_bytes};
 use super::renderer::Renderer;
 use super::targets::FRAGMENT_BYTES;
 use super::upload::check_size;
-use super::{AdapterChoice, Error, RenderOptions, Room, Window, aov, caps};
-use crate::frame::{Aovs, Frame, RegionTable};
+use super::{AdapterChoice, Error, RenderOptions, Room, Window, alloc, aov, caps};
+use crate::frame::{Aovs, Frame, RegionTable, check_memory, filled};
 use crate::lens::LayerStart;
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -111,10 +111,11 @@ impl Headless {
         options: RenderOptions,
         timings: &mut Option<Timings>,
     ) -> Result<Frame, Error> {
+        check_memory(part.size, options.aovs)?;
         let mut picture = Picture {
             part,
-            pixels: vec![[0; 4]; part.pixels() as usize],
-            aovs: options.aovs.then(|| Aovs::empty(part.size)),
+            pixels: filled(part.pixels() as usize, [0; 4])?,
+            aovs: options.aovs.then(|| Aovs::empty(part.size)).transpose()?,
             table: RegionTable::default(),
         };
         let mut windows = vec![part];
@@ -145,8 +146,8 @@ impl Headless {
             for sample in job.samples.iter().filter(|sample| sample.maps) {
                 job.encode_layers(&mut encoder, sample);
             }
-            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
-            let copy = Readback::of_buffer(&self.device, &mut encoder, &job.targets.layers);
+            let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed)?;
+            let copy = Readback::of_buffer(&self.device, &mut encoder, &job.targets.layers)?;
             self.queue.submit([encoder.finish()]);
             let needed = Room::needed(&counts.bytes(&self.device)?);
             let bytes = copy.bytes(&self.device)?;
@@ -199,7 +200,7 @@ impl Headless {
         timings: &mut Option<Timings>,
         picture: &mut Picture,
     ) -> Result<Room, Error> {
-        let target = self.target(job.window.size);
+        let target = self.target(job.window.size)?;
         let view = target.create_view(&Default::default());
         let mut stages = Stages { headless: self, encoder: None, timings };
         for sample in &job.samples {
@@ -210,9 +211,9 @@ impl Headless {
         stages.end()?;
         let start = Instant::now();
         let mut encoder = self.encoder();
-        let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed);
-        let pixels = Readback::of_texture(&self.device, &mut encoder, &target);
-        let maps = job.maps.as_ref().map(|maps| Readback::of_buffer(&self.device, &mut encoder, maps));
+        let counts = Readback::of_buffer(&self.device, &mut encoder, &job.needed)?;
+        let pixels = Readback::of_texture(&self.device, &mut encoder, &target)?;
+        let maps = job.maps.as_ref().map(|maps| Readback::of_buffer(&self.device, &mut encoder, maps)).transpose()?;
         self.queue.submit([encoder.finish()]);
         let needed = Room::needed(&counts.bytes(&self.device)?);
         if job.room.holds(needed) {
@@ -238,8 +239,8 @@ impl Headless {
     }
 
     /// What the picture of a window is drawn into.
-    pub(super) fn target(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
-        self.device.create_texture(&wgpu::TextureDescriptor {
+    pub(super) fn target(&self, [width, height]: [u32; 2]) -> Result<wgpu::Texture, Error> {
+        let descriptor = wgpu::TextureDescriptor {
             label: Some("picture"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
             mip_level_count: 1,
@@ -248,7 +249,8 @@ impl Headless {
             format: FORMAT,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
-        })
+        };
+        alloc::texture(&self.device, "the picture", &descriptor)
     }
 
     pub(super) fn encoder(&self) -> wgpu::CommandEncoder {
@@ -322,7 +324,7 @@ impl Picture {
 /// The halves of a window that outgrew the device, the upper last so that it is drawn first; any other error stays one.
 pub(super) fn smaller(window: &Window, error: Error) -> Result<[Window; 2], Error> {
     let is_whole = |what: &str| what.starts_with("the scene's") || what.starts_with("the plan's");
-    let too_large = matches!(&error, Error::TooLarge { what, .. } if !is_whole(what))
+    let too_large = matches!(&error, Error::TooLarge { what, .. } | Error::NoRoom { what, .. } if !is_whole(what))
         || matches!(&error, Error::TextureTooLarge { name, .. } if name == "of the picture");
     match (too_large, window.halves()) {
         (true, Some([first, second])) => Ok([second, first]),

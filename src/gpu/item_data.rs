@@ -4,7 +4,7 @@ use glam::DAffine3;
 
 use super::cut_data::CutWords;
 use super::draws::shown_from_local;
-use super::records::{ITEM_ALTERNATE, ITEM_OPEN, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
+use super::records::{ITEM_ALTERNATE, ITEM_TRANSLUCENT, ItemRecord, NONE, StepRecord, rows, words_of};
 use super::upload::SceneData;
 use crate::plan::{Instance, Plan, Step};
 use crate::scene::{MaterialRecord, NO_TEXTURE, Scene, scene_factor};
@@ -37,12 +37,12 @@ impl ItemData {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
-            let CutWords { body, caps, is_open } = *cut;
-            let mut record =
-                ItemRecord { first_step, body, caps, in_plane: *in_plane, ..record(scene, plan, instance, uploaded) };
-            record.flags |= if is_open { ITEM_OPEN } else { 0 };
+            let CutWords { body, caps, group, roles, lids } = *cut;
+            let in_plane = *in_plane;
+            let own = record(scene, plan, instance, uploaded);
+            let cut = ItemRecord { first_step, body, caps, group, roles, lids, in_plane, ..own };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
-            data.items.extend_from_slice(bytemuck::bytes_of(&record));
+            data.items.extend_from_slice(bytemuck::bytes_of(&cut));
             let masks = [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
             for mask in masks {
                 words_of(&mask, words).for_each(|word| data.items.extend_from_slice(&word.to_le_bytes()));
@@ -95,6 +95,9 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         node: item.node as u32,
         ratio: item.ratio,
         spread: instance.spread as f32,
+        group: NONE,
+        roles: NONE,
+        lids: NONE,
         in_plane: NONE,
         across: range.across,
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cut_data::LidDraw;
 use super::draws::Draw;
 use super::frame::Sample;
 use super::pipelines::Pipelines;
@@ -47,6 +48,8 @@ pub struct CapSteps {
     /// Of all that may be cut.
     pub draws: Vec<Draw>,
     pub crossings: wgpu::RenderPipeline,
+    /// What closes holes of it over, if any.
+    pub lids: Option<(Vec<LidDraw>, wgpu::RenderPipeline)>,
     pub find: wgpu::ComputePipeline,
 }
 
@@ -141,6 +144,13 @@ impl Job {
             let PixelRect { min, max } = draw.rect;
             pass.set_scissor_rect(min[0], min[1], max[0] - min[0], max[1] - min[1]);
             pass.draw_indexed(draw.indices.clone(), draw.base_vertex, draw.record..draw.record + 1);
+        }
+        if let Some((lids, pipeline)) = &caps.lids {
+            pass.set_pipeline(pipeline);
+            for LidDraw { record, vertices, rect: PixelRect { min, max } } in lids {
+                pass.set_scissor_rect(min[0], min[1], max[0] - min[0], max[1] - min[1]);
+                pass.draw(0..*vertices, *record..*record + 1);
+            }
         }
         drop(pass);
         let mut pass =

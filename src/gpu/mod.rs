@@ -3,6 +3,7 @@
 //!
 //! [`Renderer`] borrows device, queue, encoder and target and never submits; [`Headless`] owns a device.
 
+mod alloc;
 mod aov;
 mod atlas;
 mod bindings;

@@ -168,7 +168,6 @@ impl Needs {
             caps: false,
             soft: false,
             translucent: false,
-            channels: 0,
             in_planes: false,
             ..self.without_shading()
         };

@@ -7,6 +7,9 @@ use super::records::{self, PartRecord, extended, rows};
 use crate::lens::{Form, MeshSolid, Plane, Solid};
 use crate::view::View;
 
+/// A triangle's first corner has in its upper bits the slot of its piece; twin of `mesh.wgsl`.
+const SLOT_SHIFT: u32 = 26;
+
 /// Parts with the vectors that they point into.
 #[derive(Debug, Clone, Default)]
 pub struct PartData {
@@ -109,7 +112,10 @@ impl PartData {
             Form::Mesh(mesh) => {
                 record.crossing_room = crossings;
                 let projected = cells.and_then(|cells| cells.projected.as_ref());
-                if whole || projected.is_none() {
+                if mesh.is_by_parity() {
+                    record.flags |= records::PART_PARITY;
+                }
+                if whole || projected.is_none() || mesh.is_by_parity() {
                     self.set_mesh(&mut record, mesh);
                 }
                 if let Some(projected) = projected {
@@ -162,11 +168,12 @@ impl PartData {
 
     fn set_mesh(&mut self, record: &mut PartRecord, mesh: &MeshSolid) {
         record.first_node = self.words.len() as u32;
-        record.node_count = mesh.nodes.len() as u32;
-        self.words.extend_from_slice(bytemuck::cast_slice(&mesh.nodes));
+        record.node_count = mesh.tree.nodes.len() as u32;
+        self.words.extend_from_slice(bytemuck::cast_slice(&mesh.tree.nodes));
         record.first_triangle = self.words.len() as u32;
-        self.words.extend_from_slice(mesh.triangles.as_flattened());
+        let faces = mesh.tree.triangles.iter().zip(&mesh.roles);
+        self.words.extend(faces.flat_map(|([a, b, c], role)| [a | role.slot() << SLOT_SHIFT, *b, *c]));
         record.first_vertex = self.words.len() as u32;
-        self.words.extend(mesh.vertices.iter().flat_map(|v| v.as_vec3().to_array()).map(f32::to_bits));
+        self.words.extend(mesh.tree.vertices.iter().flat_map(|v| v.as_vec3().to_array()).map(f32::to_bits));
     }
 }

@@ -79,16 +79,17 @@ pub struct Pipelines {
     screen: OnceLock<ScreenPipelines>,
     visibility: OnceLock<wgpu::ShaderModule>,
     crossings: OnceLock<wgpu::RenderPipeline>,
+    lids: OnceLock<wgpu::RenderPipeline>,
     find_caps: OnceLock<wgpu::ComputePipeline>,
     draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
 }
 
-/// What runs the filters of the screen, each in two passes, and draws the picture after them.
+/// What runs the filters of the screen, each in a few passes, and draws the picture after them.
 #[derive(Debug, Clone)]
 pub struct ScreenPipelines {
     /// Of filters that take means.
-    pub means: [wgpu::ComputePipeline; 2],
-    pub edges: [wgpu::ComputePipeline; 2],
+    pub means: Vec<wgpu::ComputePipeline>,
+    pub edges: Vec<wgpu::ComputePipeline>,
     pub finish: wgpu::RenderPipeline,
 }
 
@@ -105,6 +106,7 @@ impl Pipelines {
             screen: OnceLock::new(),
             visibility: OnceLock::new(),
             crossings: OnceLock::new(),
+            lids: OnceLock::new(),
             find_caps: OnceLock::new(),
             draws: Mutex::default(),
         }
@@ -148,8 +150,8 @@ impl Pipelines {
             });
             let compute = |entry| compute_pipeline(&store.device, &module, &layout, entry);
             ScreenPipelines {
-                means: ["sum_rows", "sum_columns"].map(compute),
-                edges: ["mark_edges", "draw_edges"].map(compute),
+                means: ["sum_rows", "sum_columns"].map(compute).into(),
+                edges: ["mark_edges", "find_in_rows", "draw_edges"].map(compute).into(),
                 finish: picture_pipeline(&store.device, &module, &layout, ("window_vertex", "finish"), store.target),
             }
         };
@@ -183,14 +185,19 @@ impl Pipelines {
 
     /// Lists what rays meet of what may be cut.
     pub fn crossings(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        let build = || {
-            let module = self.compile(&store.device, Module::Caps);
-            let layout = pipeline_layout(store, &store.layouts.visibility);
-            let stride = item_stride(self.needs.set_words, self.needs.channels);
-            let entries = ["cut_vertex", "crossing"];
-            draw_pipeline(&store.device, &module, &layout, entries, Culling::None, Keeps::Nothing, stride)
-        };
-        self.crossings.get_or_init(build).clone()
+        self.crossings.get_or_init(|| self.listing(store, "cut_vertex")).clone()
+    }
+
+    /// The same of what closes holes of it over.
+    pub fn lids(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
+        self.lids.get_or_init(|| self.listing(store, "lid_vertex")).clone()
+    }
+
+    fn listing(&self, store: &PipelineStore, vertex: &str) -> wgpu::RenderPipeline {
+        let module = self.compile(&store.device, Module::Caps);
+        let layout = pipeline_layout(store, &store.layouts.visibility);
+        let stride = item_stride(self.needs.set_words, self.needs.channels);
+        draw_pipeline(&store.device, &module, &layout, [vertex, "crossing"], Culling::None, Keeps::Nothing, stride)
     }
 
     pub fn find_caps(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
@@ -257,6 +264,8 @@ fn draw_pipeline(
 ) -> wgpu::RenderPipeline {
     let [vertex, entry] = entries;
     let keeps_nearest = keeps == Keeps::Nearest;
+    // Lids bring their corners with them.
+    let has_corners = vertex != "lid_vertex";
     let targets = [Some(ID_FORMAT.into())];
     let corner = wgpu::vertex_attr_array![0 => Float32x3];
     let field = |shader_location, format, offset: usize| wgpu::VertexAttribute {
@@ -280,7 +289,7 @@ fn draw_pipeline(
             entry_point: Some(vertex),
             compilation_options: Default::default(),
             buffers: &[
-                Some(wgpu::VertexBufferLayout {
+                has_corners.then_some(wgpu::VertexBufferLayout {
                     array_stride: 12,
                     step_mode: wgpu::VertexStepMode::Vertex,
                     attributes: &corner,

@@ -1,12 +1,10 @@
 //! The plan on the device: the buffers of group 1, which live for one frame.
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::item_data::ItemData;
 use super::lens_data::LensData;
 use super::records::FrameRecord;
 use super::upload::check_size;
-use super::{Error, bindings};
+use super::{Error, alloc, bindings};
 use crate::plan::{LightRecord, Plan};
 
 /// What goes into the buffers besides the plan itself.
@@ -79,5 +77,5 @@ fn plan_buffer(
     } else {
         bytes
     };
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
+    alloc::filled_buffer(device, label, contents, usage)
 }

@@ -1,6 +1,6 @@
 //! Copies from the device.
 
-use super::Error;
+use super::{Error, alloc};
 
 /// A buffer that the host can read once its copy has run.
 #[derive(Debug)]
@@ -10,33 +10,41 @@ pub struct Readback {
 
 impl Readback {
     /// Encodes a copy of a whole buffer.
-    pub fn of_buffer(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, source: &wgpu::Buffer) -> Self {
-        let readback = Self::new(device, source.size());
+    pub fn of_buffer(
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        source: &wgpu::Buffer,
+    ) -> Result<Self, Error> {
+        let readback = Self::new(device, source.size())?;
         encoder.copy_buffer_to_buffer(source, 0, &readback.buffer, 0, source.size());
-        readback
+        Ok(readback)
     }
 
     /// Encodes a copy of a texture with four bytes a pixel; rows are padded to [`row_bytes`].
-    pub fn of_texture(device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, source: &wgpu::Texture) -> Self {
+    pub fn of_texture(
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        source: &wgpu::Texture,
+    ) -> Result<Self, Error> {
         let row = row_bytes(source.width());
-        let readback = Self::new(device, u64::from(row) * u64::from(source.height()));
+        let readback = Self::new(device, u64::from(row) * u64::from(source.height()))?;
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
         encoder.copy_texture_to_buffer(
             source.as_image_copy(),
             wgpu::TexelCopyBufferInfo { buffer: &readback.buffer, layout },
             source.size(),
         );
-        readback
+        Ok(readback)
     }
 
-    fn new(device: &wgpu::Device, size: u64) -> Self {
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+    fn new(device: &wgpu::Device, size: u64) -> Result<Self, Error> {
+        let descriptor = wgpu::BufferDescriptor {
             label: Some("readback"),
             size,
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
-        });
-        Self { buffer }
+        };
+        Ok(Self { buffer: alloc::buffer(device, "the copy of the picture", &descriptor)? })
     }
 
     /// Waits for the copy, which must have been submitted, and gives its bytes.

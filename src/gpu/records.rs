@@ -10,7 +10,6 @@ pub const NONE: u32 = u32::MAX;
 
 pub const ITEM_TRANSLUCENT: u32 = 1;
 pub const ITEM_ALTERNATE: u32 = 2;
-pub const ITEM_OPEN: u32 = 4;
 
 pub const FORM_EMPTY: u32 = 0;
 pub const FORM_SPHERE: u32 = 1;
@@ -23,6 +22,7 @@ pub const LENS_GLASS: u32 = 1;
 pub const LENS_BY_OBJECT: u32 = 2;
 
 pub const PART_FLAT: u32 = 1;
+pub const PART_PARITY: u32 = 2;
 
 /// One sample, or one layer of one, of a frame.
 #[repr(C)]
@@ -112,6 +112,10 @@ pub struct ItemRecord {
     pub ratio: f32,
     /// How far versions of it may lie from each other.
     pub spread: f32,
+    /// See [`super::cut_data::CutWords`].
+    pub group: u32,
+    pub roles: u32,
+    pub lids: u32,
     /// Among the words of lenses, or `u32::MAX`: what of its triangles lies in planes with others.
     pub in_plane: u32,
     /// Where what lies across the edges of its triangles starts, or `u32::MAX`.

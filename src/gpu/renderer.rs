@@ -18,7 +18,7 @@ use super::screen_job::ScreenJob;
 use super::targets::{FRAGMENT_BYTES, ScreenTargets, TargetSizes, Targets, work_buffer};
 use super::tiles::Tiles;
 use super::upload::{SceneData, largest_buffer};
-use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov};
+use super::{Engine, Error, Needs, RenderOptions, Room, Window, aov, caps};
 use crate::custom::{self, Custom};
 use crate::lens::PixelRect;
 use crate::plan::Plan;
@@ -38,6 +38,14 @@ pub struct Renderer {
     largest_buffer: u64,
 }
 
+/// What pictures are drawn into: colours come out encoded, in eight bits.
+const TARGET_FORMATS: [wgpu::TextureFormat; 4] = [
+    wgpu::TextureFormat::Rgba8Unorm,
+    wgpu::TextureFormat::Rgba8UnormSrgb,
+    wgpu::TextureFormat::Bgra8Unorm,
+    wgpu::TextureFormat::Bgra8UnormSrgb,
+];
+
 /// What a host can learn about a frame after it has submitted it.
 #[derive(Debug)]
 pub struct Encoded {
@@ -55,6 +63,11 @@ impl Renderer {
         scene: &Scene,
         target_format: wgpu::TextureFormat,
     ) -> Result<Self, Error> {
+        if !TARGET_FORMATS.contains(&target_format) {
+            let wanted = format!("pictures are drawn into {TARGET_FORMATS:?}");
+            return Err(Error::TargetFormat { format: format!("{target_format:?}"), wanted });
+        }
+        caps::check_limits(device)?;
         Self::with_store(device, queue, scene, Arc::new(PipelineStore::new(device, target_format)))
     }
 
@@ -80,6 +93,7 @@ impl Renderer {
         plan: &Plan,
         options: RenderOptions,
     ) -> Result<Encoded, Error> {
+        self.check_target(target.texture(), plan)?;
         let job = self.prepare(device, scene, plan, Window::whole(&plan.view), options)?;
         for sample in &job.samples {
             job.encode_layers(encoder, sample);
@@ -87,6 +101,21 @@ impl Renderer {
             job.encode_resolve(encoder, sample, target);
         }
         Ok(Encoded { needed: job.needed, room: job.room })
+    }
+
+    /// Whether a texture is such as pictures of a plan are drawn into. A view may show any of its mip levels.
+    fn check_target(&self, target: &wgpu::Texture, plan: &Plan) -> Result<(), Error> {
+        let picture = plan.view.size;
+        let level = |level: u32| [target.width(), target.height()].map(|side| (side >> level).max(1));
+        if !(0..target.mip_level_count()).any(|number| level(number) == picture) {
+            return Err(Error::TargetSize { target: level(0), picture });
+        }
+        let (own, wanted) = (target.format(), self.store.target);
+        if own.remove_srgb_suffix() != wanted.remove_srgb_suffix() {
+            let wanted = format!("the renderer was made for {wanted:?}");
+            return Err(Error::TargetFormat { format: format!("{own:?}"), wanted });
+        }
+        Ok(())
     }
 
     /// Allows no buffer of a frame to be larger than so many bytes, to leave memory to others; never more than the
@@ -151,6 +180,12 @@ impl Renderer {
         options: RenderOptions,
         after: Option<Place>,
     ) -> Result<Job, Error> {
+        if scene.id != self.scene.id {
+            return Err(Error::OtherScene { what: "the renderer's" });
+        }
+        if plan.scene != scene.id {
+            return Err(Error::OtherScene { what: "the one that is drawn" });
+        }
         let needs = Needs::of(scene, plan, options.engine);
         // Maps count layers, whether the picture asks for them or not.
         let cuts_layers = needs.layers || options.aovs;
@@ -184,7 +219,7 @@ impl Renderer {
             .then(|| work_buffer(device, self.largest_buffer, "maps of pixel centres", aov::bytes(&window, words)))
             .transpose()?;
         let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
-        let cuts = cut_data::push_cuts(plan, &mut lenses.parts.words);
+        let cuts = cut_data::push_cuts(scene, plan, &self.scene, &mut lenses.parts.words);
         let in_planes = coincident_data::push_in_planes(plan, &mut lenses.parts.words);
         let PlanGroup { group, items } = PlanContents {
             plan,
@@ -197,6 +232,7 @@ impl Renderer {
         // What they were made for may have needed more.
         let of_screen = targets.screen.as_ref().filter(|_| needs.screen);
         let screen = of_screen.map(|of_screen| self.screen(device, plan, needs, of_screen, &targets.accumulated));
+        let screen = screen.transpose()?;
         let resolved = of_screen.map_or(&targets.accumulated, |of_screen| &of_screen.samples);
         let groups = self.groups(device, group, &targets, &needed, maps.as_ref(), resolved);
         let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
@@ -208,10 +244,14 @@ impl Renderer {
             || {
                 let program = program_of(options.engine, after.is_some());
                 let draws = self.draws(scene, plan, &window, skip, program, &unshaded);
-                let caps = needs.caps.then(|| CapSteps {
-                    draws: cut_data::draws(plan, &window, &self.scene),
-                    crossings: unshaded.crossings(store),
-                    find: unshaded.find_caps(store),
+                let caps = needs.caps.then(|| {
+                    let lids = cut_data::lid_draws(scene, plan, &window);
+                    CapSteps {
+                        draws: cut_data::draws(plan, &window, &self.scene),
+                        crossings: unshaded.crossings(store),
+                        lids: (!lids.is_empty()).then(|| (lids, unshaded.lids(store))),
+                        find: unshaded.find_caps(store),
+                    }
                 });
                 (draws, caps, cuts_layers.then(|| unshaded.layers(store)))
             },
@@ -257,7 +297,7 @@ impl Renderer {
         needs: Needs,
         targets: &ScreenTargets,
         accumulated: &wgpu::Buffer,
-    ) -> ScreenJob {
+    ) -> Result<ScreenJob, Error> {
         let pipelines = self.store.get(needs.for_screen(), &Arc::from("")).screen(&self.store);
         ScreenJob::new(device, plan, pipelines, &self.store.layouts.screen, targets, accumulated)
     }

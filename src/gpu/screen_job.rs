@@ -2,7 +2,7 @@
 
 use super::pipelines::ScreenPipelines;
 use super::targets::ScreenTargets;
-use super::{Window, bindings};
+use super::{Error, Window, alloc, bindings};
 use crate::appearance as wgsl;
 use crate::plan::Plan;
 
@@ -11,8 +11,8 @@ use crate::plan::Plan;
 pub struct ScreenJob {
     pipelines: ScreenPipelines,
     group: wgpu::BindGroup,
-    /// For each step, the pipelines of its two passes and where its record stands.
-    steps: Vec<([wgpu::ComputePipeline; 2], u32)>,
+    /// For each step, the pipelines of its passes and where its record stands.
+    steps: Vec<(Vec<wgpu::ComputePipeline>, u32)>,
 }
 
 /// What a step's shaders are told: the filter, the rank of its lens, and nothing twice.
@@ -26,7 +26,7 @@ impl ScreenJob {
         layout: &wgpu::BindGroupLayout,
         targets: &ScreenTargets,
         accumulated: &wgpu::Buffer,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         let stride =
             (size_of::<StepRecord>() as u32).next_multiple_of(device.limits().min_storage_buffer_offset_alignment);
         let (mut records, mut steps) = (Vec::new(), Vec::new());
@@ -37,14 +37,8 @@ impl ScreenJob {
             records.extend_from_slice(bytemuck::bytes_of(&record));
             records.resize(records.len().next_multiple_of(stride as usize), 0);
         }
-        let records = wgpu::util::DeviceExt::create_buffer_init(
-            device,
-            &wgpu::util::BufferInitDescriptor {
-                label: Some("steps of the screen"),
-                contents: &records,
-                usage: wgpu::BufferUsages::STORAGE,
-            },
-        );
+        let records =
+            alloc::filled_buffer(device, "the plan's filters of the screen", &records, wgpu::BufferUsages::STORAGE)?;
         let record = wgpu::BufferBinding {
             buffer: &records,
             offset: 0,
@@ -62,7 +56,7 @@ impl ScreenJob {
                 accumulated.as_entire_binding(),
             ],
         );
-        Self { pipelines, group, steps }
+        Ok(Self { pipelines, group, steps })
     }
 
     /// Filters the sample that the resolve has written, and draws the picture of all samples up to it. `offset`: of its

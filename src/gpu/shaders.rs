@@ -53,7 +53,7 @@ impl Module {
 }
 
 /// Where rays cross lens volumes.
-const VOLUMES: &[&str] = &[PLANE, PART, MESH, PROGRAM];
+const VOLUMES: &[&str] = &[PLANE, PART, ROLES, MESH, PROGRAM];
 /// Who acts on a fragment.
 const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, COINCIDENT, GEOMETRY, STEPS, MOVED, WALK];
 /// What a fragment looks like.
@@ -65,6 +65,7 @@ const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
 const COINCIDENT: &str = include_str!("../../shaders/gpu/coincident.wgsl");
 const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
 const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
+const ROLES: &str = include_str!("../../shaders/gpu/roles.wgsl");
 const MESH: &str = include_str!("../../shaders/gpu/mesh.wgsl");
 const PROGRAM: &str = include_str!("../../shaders/gpu/program.wgsl");
 const ASKED: &str = include_str!("../../shaders/gpu/asked.wgsl");

@@ -2,7 +2,7 @@
 
 use super::pipelines::{DEPTH_FORMAT, ID_FORMAT};
 use super::upload::check_size;
-use super::{Error, Window};
+use super::{Error, Window, alloc};
 
 /// Bytes of a listed fragment.
 pub const FRAGMENT_BYTES: u64 = 16;
@@ -58,9 +58,9 @@ impl Targets {
         if side > limit {
             return Err(Error::TextureTooLarge { name: "of the picture".into(), size: side, allowed: limit });
         }
-        let texture = |label, format, usage| {
+        let texture = |label: &str, format, usage| -> Result<wgpu::TextureView, Error> {
             let size = wgpu::Extent3d { width: window.size[0], height: window.size[1], depth_or_array_layers: 1 };
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
+            let descriptor = wgpu::TextureDescriptor {
                 label: Some(label),
                 size,
                 mip_level_count: 1,
@@ -69,14 +69,15 @@ impl Targets {
                 format,
                 usage,
                 view_formats: &[],
-            });
-            texture.create_view(&Default::default())
+            };
+            let texture = alloc::texture(device, &format!("the {label} of the picture"), &descriptor)?;
+            Ok(texture.create_view(&Default::default()))
         };
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         Ok(Self {
             size: window.size,
-            ids: texture("visibility", ID_FORMAT, attachment | wgpu::TextureUsages::TEXTURE_BINDING),
-            depth: texture("depth", DEPTH_FORMAT, attachment),
+            ids: texture("visibility", ID_FORMAT, attachment | wgpu::TextureUsages::TEXTURE_BINDING)?,
+            depth: texture("depth", DEPTH_FORMAT, attachment)?,
             heads: work_buffer(device, allowed, "heads of fragment lists", 4 * heads)?,
             accumulated: work_buffer(device, allowed, "summed colours", SUMMED_BYTES * summed)?,
             layers: work_buffer(device, allowed, "layers", 4 * layer_words)?,
@@ -122,11 +123,13 @@ pub fn sample_bytes(words: u32) -> u64 {
 
 /// A storage buffer that passes write and may be copied from; `allowed`: the most bytes it may have.
 pub fn work_buffer(device: &wgpu::Device, allowed: u64, label: &str, bytes: u64) -> Result<wgpu::Buffer, Error> {
-    check_size(allowed, &format!("the {label}"), bytes)?;
-    Ok(device.create_buffer(&wgpu::BufferDescriptor {
+    let what = format!("the {label}");
+    check_size(allowed, &what, bytes)?;
+    let descriptor = wgpu::BufferDescriptor {
         label: Some(label),
         size: bytes.max(64).next_multiple_of(16),
         usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
-    }))
+    };
+    alloc::buffer(device, &what, &descriptor)
 }

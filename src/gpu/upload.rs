@@ -2,15 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-
 use super::atlas::Atlas;
 use super::clusters::{Cluster, Clustered};
 use super::provoking::Provoking;
 use super::records::NONE;
-use super::{Error, bindings};
+use super::{Error, alloc, bindings};
 use crate::plan::Item;
-use crate::scene::{Across, Mesh, Primitive, Scene};
+use crate::scene::{Across, Mesh, Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,16 +41,11 @@ pub struct SceneData {
     pub positions: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub bind_group: wgpu::BindGroup,
-    primitives: HashMap<Place, Uploaded>,
-}
-
-/// A version of a primitive.
-#[derive(Debug)]
-struct Uploaded {
-    range: Range,
-    clusters: Vec<Cluster>,
-    /// The number of each drawn triangle in the primitive.
-    order: Vec<u32>,
+    /// Which scene it is.
+    pub id: SceneId,
+    primitives: HashMap<Place, (Range, Vec<Cluster>)>,
+    /// Of each triangle in the order in which they are drawn, its number in its primitive.
+    numbers: Vec<u32>,
 }
 
 /// The shared buffers while they are filled.
@@ -67,25 +60,25 @@ struct Lists {
 impl Lists {
     /// Adds a mesh: the versions of its primitives, by their numbers and ratios. `wanted`: the names of the numbers at
     /// vertices that filters read.
-    fn add_mesh(&mut self, mesh: &Mesh, wanted: &BTreeMap<String, [f32; 2]>) -> Vec<(usize, f32, Uploaded)> {
+    fn add_mesh(&mut self, mesh: &Mesh, wanted: &BTreeMap<String, [f32; 2]>) -> Vec<(usize, f32, Range, Vec<Cluster>)> {
         // Of the vertices of all primitives, one after the other: where a copy of each stands.
         let mut copies = Vec::new();
         let mut added = Vec::new();
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             for (version, (ratio, triangles)) in primitive.versions().enumerate() {
                 let whole = (version == 0).then_some(&mut copies);
-                added.push((number, ratio, self.add(primitive, triangles, wanted, whole)));
+                let (range, clusters) = self.add(primitive, triangles, wanted, whole);
+                added.push((number, ratio, range, clusters));
             }
         }
-        for (number, ratio, uploaded) in &mut added {
-            let across = mesh.primitives[*number].across_of(*ratio);
-            uploaded.range.across = self.across(across, &uploaded.order, &copies);
+        for (number, ratio, range, _) in &mut added {
+            range.across = self.across(mesh.primitives[*number].across_of(*ratio), range.first_number, &copies);
         }
         added
     }
 
     /// What lies across the edges of triangles, in the order in which they are drawn.
-    fn across(&mut self, across: &[[Across; 3]], order: &[u32], copies: &[u32]) -> u32 {
+    fn across(&mut self, across: &[[Across; 3]], first_number: u32, copies: &[u32]) -> u32 {
         if across.is_empty() {
             return NONE;
         }
@@ -94,7 +87,10 @@ impl Lists {
             let opposite = across.opposite().map_or(NO_VERTEX, |vertex| copies[vertex as usize].min(NO_VERTEX));
             opposite | if across.is_feature() { FEATURE } else { 0 }
         };
-        self.numbers.extend(order.iter().flat_map(|number| across[*number as usize].each_ref().map(word)));
+        for drawn in first_number as usize..first_number as usize + across.len() {
+            let own = across[self.numbers[drawn] as usize].each_ref().map(word);
+            self.numbers.extend(own);
+        }
         start as u32
     }
 
@@ -105,7 +101,7 @@ impl Lists {
         triangles: &[[u32; 3]],
         wanted: &BTreeMap<String, [f32; 2]>,
         copies: Option<&mut Vec<u32>>,
-    ) -> Uploaded {
+    ) -> (Range, Vec<Cluster>) {
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
@@ -127,8 +123,8 @@ impl Lists {
         }
         self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
-        self.numbers.extend_from_slice(&numbers);
-        Uploaded { range, clusters, order: numbers }
+        self.numbers.extend(numbers);
+        (range, clusters)
     }
 
     fn values(
@@ -160,8 +156,8 @@ impl SceneData {
         let mut primitives = HashMap::new();
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
-                for (p, ratio, uploaded) in lists.add_mesh(mesh, &scene.value_ranges) {
-                    primitives.insert((m, i, p, ratio.to_bits()), uploaded);
+                for (p, ratio, range, clusters) in lists.add_mesh(mesh, &scene.value_ranges) {
+                    primitives.insert((m, i, p, ratio.to_bits()), (range, clusters));
                 }
             }
         }
@@ -191,22 +187,26 @@ impl SceneData {
                 numbers.as_entire_binding(),
             ],
         );
-        Ok(Self { positions, indices, bind_group, primitives })
+        Ok(Self { positions, indices, bind_group, id: scene.id, primitives, numbers: lists.numbers })
+    }
+
+    /// Of each triangle of an item's version of its primitive, its place in the order in which they are drawn.
+    pub fn drawn_places(&self, item: &Item) -> Vec<u32> {
+        let mut places = vec![0; item.triangles as usize];
+        (0u32..).zip(self.order(item)).for_each(|(place, number)| places[*number as usize] = place);
+        places
     }
 
     /// Where an item's version of its primitive lies, and its clusters.
     pub fn primitive(&self, item: &Item) -> (&Range, &[Cluster]) {
-        let Uploaded { range, clusters, .. } = self.uploaded(item);
+        let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive, item.ratio.to_bits())];
         (range, clusters)
     }
 
     /// The number in its primitive of each of an item's drawn triangles.
     pub fn order(&self, item: &Item) -> &[u32] {
-        &self.uploaded(item).order
-    }
-
-    fn uploaded(&self, item: &Item) -> &Uploaded {
-        &self.primitives[&(item.model, item.mesh, item.primitive, item.ratio.to_bits())]
+        let first = self.primitive(item).0.first_number as usize;
+        &self.numbers[first..first + item.triangles as usize]
     }
 }
 
@@ -220,7 +220,8 @@ fn storage_buffer(
     bytes: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, Error> {
-    check_size(largest_buffer(device), &format!("the scene's {label}"), bytes.len() as u64)?;
+    let what = format!("the scene's {label}");
+    check_size(largest_buffer(device), &what, bytes.len() as u64)?;
     let padded;
     let contents = if bytes.len() < SMALLEST {
         padded = [bytes, &vec![0; SMALLEST - bytes.len()]].concat();
@@ -228,7 +229,7 @@ fn storage_buffer(
     } else {
         bytes
     };
-    Ok(device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage }))
+    alloc::filled_buffer(device, &what, contents, usage)
 }
 
 /// Fails with numbers when a buffer is larger than allowed.

@@ -106,6 +106,13 @@ fn part(shape: &Shape, world: DAffine3, view: &View, meshes: &LensMeshes) -> Res
             let into_form = pose.inverse();
             Ok(solid(form, world * pose, points.iter().map(|p| into_form.transform_point3(*p)).collect()))
         }
+        Shape::HalfSpace { point, normal } => {
+            Ok(unbounded(world, v(*point), &[Plane::through(v(*normal), DVec3::ZERO)]))
+        }
+        Shape::Slab { point, normal, thickness } => {
+            let sides = [v(*normal), -v(*normal)].map(|normal| Plane::new(normal.normalize(), 0.5 * thickness));
+            Ok(unbounded(world, v(*point), &sides))
+        }
         Shape::Flat { corners, depth } => flat(world, corners, *depth, view),
         Shape::Mesh(mesh) => {
             let mesh = meshes.get(mesh).ok_or("the scene was opened without its mesh")?;
@@ -120,6 +127,13 @@ fn solid(form: Form, world_from_local: DAffine3, corners: Vec<DVec3>) -> Solid {
     let center = Aabb::from_points(corners.iter().copied()).center();
     let hull = corners.iter().map(|p| world_from_local.transform_point3(*p)).collect();
     Solid::new(form, world_from_local, hull, world_from_local.transform_point3(center), false)
+}
+
+/// What lies inside planes that leave a side open, given around `point`, its centre.
+fn unbounded(world: DAffine3, point: DVec3, planes: &[Plane]) -> Solid {
+    let pose = world * DAffine3::from_translation(point);
+    let form = Form::HalfSpaces { planes: planes.to_vec(), hidden: 0 };
+    Solid::new(form, pose, Vec::new(), pose.translation, false)
 }
 
 /// Corners of the cube from `low` to 1.

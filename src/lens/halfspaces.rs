@@ -98,6 +98,10 @@ fn cut(faces: &mut Vec<(usize, Vec<DVec3>)>, index: usize, plane: &Plane, tolera
     }
     let mut rim: Vec<DVec3> = Vec::new();
     for (_, corners) in faces.iter_mut() {
+        // Most faces are far from the plane.
+        if corners.iter().all(|p| plane.distance(*p) < -tolerance) {
+            continue;
+        }
         let mut kept = Vec::with_capacity(corners.len() + 1);
         for (i, &p) in corners.iter().enumerate() {
             let q = corners[(i + 1) % corners.len()];

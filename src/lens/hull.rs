@@ -6,6 +6,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use parry3d_f64::math::Vector;
 
 use super::{Form, MeshSolid, Plane};
+use crate::pieces::Role;
 use crate::scene::Aabb;
 
 /// Up to so many planes a ray asks every one; from there on a hull is a mesh with a hierarchy.
@@ -99,7 +100,8 @@ pub fn hull_form(points: &[DVec3]) -> Result<(Form, DAffine3), FlatPoints> {
     let half = DVec3::splat(0.5 * hull.size);
     let vertices = hull.vertices.iter().map(|p| (*p - bounds.center()) / half).collect();
     let pose = DAffine3::from_scale_rotation_translation(half, DQuat::IDENTITY, bounds.center());
-    let solid = MeshSolid { is_convex: true, ..MeshSolid::new(vertices, &hull.triangles) };
+    let roles = vec![Role::PLAIN; hull.triangles.len()];
+    let solid = MeshSolid { is_convex: true, ..MeshSolid::with_roles(vertices, &hull.triangles, &roles) };
     Ok((Form::Mesh(Arc::new(solid)), pose))
 }
 

@@ -12,7 +12,8 @@ pub struct Solid {
     pub form: Form,
     pub world_from_local: DAffine3,
     pub local_from_world: DAffine3,
-    /// World points whose convex hull holds the volume or, for a flat lens, what it is seen through.
+    /// World points whose convex hull holds the volume or, for a flat lens, what it is seen through; none where nothing
+    /// bounds it.
     pub hull: Vec<DVec3>,
     /// World space. For a flat lens the mean of the corners.
     pub center: DVec3,
@@ -57,10 +58,15 @@ impl Solid {
         (self.local_from_world.matrix3.transpose() * local).normalize_or_zero()
     }
 
-    /// World bounds; unlimited for a flat lens.
+    /// Whether it has an end on every side: flat lenses, half-spaces and slabs have not.
+    pub fn is_bounded(&self) -> bool {
+        !self.is_flat && !self.hull.is_empty()
+    }
+
+    /// World bounds; unlimited where it is not bounded.
     pub fn bounds(&self) -> Aabb {
-        if self.is_flat {
-            return Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+        if !self.is_bounded() {
+            return Aabb::EVERYWHERE;
         }
         Aabb::from_points(self.hull.iter().copied())
     }
@@ -68,22 +74,42 @@ impl Solid {
     /// The pixels outside which no view ray meets the volume between near and far: the projected hull, a
     /// pixel larger on each side; all of them where part of the hull is not in front of the eye.
     pub fn pixel_rect(&self, view: &View) -> PixelRect {
+        if self.hull.is_empty() {
+            return self.unbounded_rect(view);
+        }
         let depths = || self.hull.iter().map(|p| view.depth(*p));
         let nearest = depths().fold(f64::INFINITY, f64::min);
         let farthest = depths().fold(f64::NEG_INFINITY, f64::max);
         if matches!(self.form, Form::Empty) || (!self.is_flat && farthest <= view.near) || nearest >= view.far {
             return PixelRect::EMPTY;
         }
-        let size = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1]));
         let projected: Option<Vec<DVec2>> = self.hull.iter().map(|p| view.project(*p)).collect();
-        let (min, max) = match projected {
-            Some(points) if nearest > 0.0 || !view.is_perspective() => {
-                points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)))
-            }
-            _ => (DVec2::ZERO, size),
-        };
-        let min = (min - 1.0).floor().clamp(DVec2::ZERO, size);
-        let max = (max + 1.0).ceil().clamp(DVec2::ZERO, size);
-        PixelRect { min: [min.x as u32, min.y as u32], max: [max.x as u32, max.y as u32] }
+        match projected {
+            Some(points) if nearest > 0.0 || !view.is_perspective() => PixelRect::around(points, view.size),
+            _ => PixelRect::whole(view.size),
+        }
+    }
+
+    /// The same of a volume of planes without a hull: where the edges of what is seen lie inside all planes or cross one.
+    fn unbounded_rect(&self, view: &View) -> PixelRect {
+        let Form::HalfSpaces { planes, .. } = &self.form else { return PixelRect::whole(view.size) };
+        let [width, height] = view.size.map(f64::from);
+        let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]].map(DVec2::from_array);
+        let ends: Vec<(DVec2, DVec3)> = [view.near, view.far]
+            .into_iter()
+            .flat_map(|depth| corners.map(|at| (at, view.ray(at.x, at.y).at(depth))))
+            .map(|(at, point)| (at, self.local_from_world.transform_point3(point)))
+            .collect();
+        let beside = (0..4).flat_map(|i| [(i, (i + 1) % 4), (i + 4, (i + 1) % 4 + 4)]);
+        let mut points = Vec::new();
+        for (a, b) in beside.chain((0..4).map(|i| (i, i + 4))) {
+            let ((at_a, a), (at_b, b)) = (ends[a], ends[b]);
+            points.extend([(at_a, a), (at_b, b)].iter().filter(|end| self.form.contains(end.1)).map(|end| end.0));
+            // Near and far are planes of one depth, and along a ray the place in the picture is one: it is linear on all edges.
+            let crossings = planes.iter().map(|plane| (plane.distance(a), plane.distance(b)));
+            let crossings = crossings.filter(|(a, b)| (*a <= 0.0) != (*b <= 0.0)).map(|(a, b)| a / (a - b));
+            points.extend(crossings.map(|along| at_a.lerp(at_b, along)));
+        }
+        PixelRect::around(points, view.size)
     }
 }

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use glam::DVec3;
 
+use super::holding::Holding;
 use super::tree::Algebra;
 use super::{Crossing, PixelRect, Solid, Span, Tree, starts_boundary};
 use crate::scene::Aabb;
@@ -42,7 +43,7 @@ pub struct Boundary {
 /// What a ray meets of the parts of a compound: kept from ray to ray, since a picture asks for millions.
 #[derive(Default)]
 struct Buffers {
-    inside: Vec<bool>,
+    holding: Holding,
     crossings: Vec<Boundary>,
     spans: Vec<Span>,
 }
@@ -111,47 +112,24 @@ impl Volume {
             Boundary::ends(part, span, near, far).for_each(tell);
             return span.entry.t <= near;
         }
-        BUFFERS.with_borrow_mut(|Buffers { inside, crossings, spans }| {
-            inside.clear();
-            inside.resize(self.parts.len(), false);
+        BUFFERS.with_borrow_mut(|Buffers { holding, crossings, spans }| {
+            holding.start(&self.tree, self.parts.len());
             crossings.clear();
             for (part, solid) in self.parts.iter().enumerate() {
                 spans.clear();
                 solid.spans(ray, spans);
                 for span in spans.iter().filter_map(|span| span.between(near, far)) {
-                    inside[part] |= span.entry.t <= near;
+                    if span.entry.t <= near {
+                        holding.set(part, true);
+                    }
                     crossings.extend(Boundary::ends(part, span, near, far));
                 }
             }
             crossings.sort_by(|a, b| a.depth.total_cmp(&b.depth));
-            let starts_inside = self.tree.holds(&|part| inside[part]);
-            self.changes(crossings, inside, tell);
+            let starts_inside = holding.holds();
+            changes(crossings, holding, tell);
             starts_inside
         })
-    }
-
-    /// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several
-    /// parts change; it is one of the volume where the whole then holds and did not, or the other way round.
-    fn changes(&self, crossings: &[Boundary], inside: &mut [bool], mut tell: impl FnMut(Boundary)) {
-        let mut held = self.tree.holds(&|part| inside[part]);
-        let mut rest = crossings;
-        while let Some(first) = rest.first() {
-            let merged = rest.iter().take_while(|c| !starts_boundary(first.depth, c.depth)).count();
-            let mut holds = held;
-            let mut changed = None;
-            for crossing in &rest[..merged] {
-                inside[crossing.part] = crossing.enters_part;
-                holds = self.tree.holds(&|part| inside[part]);
-                if holds != held {
-                    changed = changed.or(Some(crossing));
-                }
-            }
-            if let Some(crossing) = changed.filter(|_| holds != held) {
-                tell(Boundary { depth: first.depth, enters: holds, ..*crossing });
-            }
-            held = holds;
-            rest = &rest[merged..];
-        }
     }
 
     /// Outward unit normal in the world at a boundary of a ray: turned round where the part is taken away.
@@ -171,13 +149,13 @@ impl Volume {
         self.tree.holds(&|part| self.parts[part].contains(p))
     }
 
-    /// World bounds; unlimited where a flat lens makes them so.
+    /// World bounds; unlimited where flat lenses, half-spaces or slabs make them so.
     pub fn bounds(&self) -> Aabb {
         let algebra = Algebra { union: Aabb::union, intersection: Aabb::intersection, difference: |a, _| a };
         self.tree.fold(&algebra, &|part| self.parts[part].bounds()).unwrap_or(Aabb::EMPTY)
     }
 
-    /// World points whose convex hull holds the volume or, where it has flat parts, what those are seen through.
+    /// World points whose convex hull holds what is bounded of the volume and what its flat parts are seen through.
     pub fn hull(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.tree.added_parts().into_iter().flat_map(|part| self.parts[part].hull.iter().copied())
     }
@@ -186,5 +164,28 @@ impl Volume {
     pub fn pixel_rect(&self, view: &View) -> PixelRect {
         let algebra = Algebra { union: PixelRect::union, intersection: PixelRect::intersection, difference: |a, _| a };
         self.tree.fold(&algebra, &|part| self.parts[part].pixel_rect(view)).unwrap_or(PixelRect::EMPTY)
+    }
+}
+
+/// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several parts
+/// change; it is one of the volume where the whole then holds and did not, or the other way round.
+fn changes(crossings: &[Boundary], holding: &mut Holding, mut tell: impl FnMut(Boundary)) {
+    let mut held = holding.holds();
+    let mut rest = crossings;
+    while let Some(first) = rest.first() {
+        let merged = rest.iter().take_while(|c| !starts_boundary(first.depth, c.depth)).count();
+        let mut holds = held;
+        let mut changed = None;
+        for crossing in &rest[..merged] {
+            holds = holding.set(crossing.part, crossing.enters_part);
+            if holds != held {
+                changed = changed.or(Some(crossing));
+            }
+        }
+        if let Some(crossing) = changed.filter(|_| holds != held) {
+            tell(Boundary { depth: first.depth, enters: holds, ..*crossing });
+        }
+        held = holds;
+        rest = &rest[merged..];
     }
 }

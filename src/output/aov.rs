@@ -51,7 +51,7 @@ pub fn write_aov(path: &Path, aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<(), 
         }
         Aov::Layers => write_gray16(path, &aovs.layers, size),
         Aov::Region => {
-            let map = RegionMap::new(plan, &plan.regions(), aovs)?;
+            let map = RegionMap::new(plan, &plan.regions().regions, aovs)?;
             write_gray16(path, &map.ids, size)?;
             let table = serde_json::to_string_pretty(&map.json()).unwrap_or_default();
             write_whole(&path.with_extension("json"), (table + "\n").as_bytes())

@@ -11,7 +11,10 @@ use crate::plan::{Plan, Region, filter_name};
 /// Stands in a region map where there is no fragment.
 pub const NOTHING: u16 = u16::MAX;
 
-/// A region that a picture found.
+/// The most regions that a map numbers.
+const MOST_NUMBERS: usize = NOTHING as usize - 1;
+
+/// A region that a picture or a search found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundRegion {
     /// From 1; 0 is outside all lenses.
@@ -36,8 +39,22 @@ pub struct Entry {
 #[serde(rename_all = "lowercase")]
 pub enum Actor {
     Lens(String),
-    /// The n-th `[[overlap]]`, from 0.
-    Rule(usize),
+    Rule(NamedRule),
+}
+
+/// A rule: JSON has its number, people are told its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NamedRule {
+    /// Among the `[[overlap]]` of the file, from 0.
+    pub number: usize,
+    /// Of its condition, from 1.
+    pub line: usize,
+}
+
+impl Serialize for NamedRule {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.number.serialize(serializer)
+    }
 }
 
 /// Region numbers for each pixel and what they mean.
@@ -49,11 +66,13 @@ pub struct RegionMap {
 }
 
 impl RegionMap {
-    /// Numbers the regions of a picture and those that `known` adds; an error where 16 bits do not tell them apart.
+    /// Numbers the regions of a picture and, as far as there are numbers, those that `known` adds; an error where 16 bits do
+    /// not tell apart what the picture shows.
     pub fn new(plan: &Plan, known: &[Region], aovs: &Aovs) -> Result<Self, InputError> {
-        let numbered = numbered(plan, known.iter().chain(&aovs.table));
-        if numbered.len() >= usize::from(NOTHING) {
-            let message = format!("{} regions occur, and a region map tells {} apart", numbered.len(), NOTHING - 1);
+        let numbered = numbered(plan, known, &aovs.table);
+        if numbered.len() > MOST_NUMBERS {
+            let message =
+                format!("the picture shows {} regions, and a region map tells {MOST_NUMBERS} apart", numbered.len());
             return Err(InputError::new(message).help("leave out `--aov region`"));
         }
         let found = |(id, region): (usize, Region)| FoundRegion {
@@ -88,7 +107,7 @@ impl Actor {
     /// Who stands at a rank of stacks.
     pub fn of(plan: &Plan, rank: usize) -> Self {
         match plan.rule_of(rank) {
-            Some(rule) => Actor::Rule(rule),
+            Some(number) => Actor::Rule(NamedRule { number, line: plan.rules[number].line }),
             None => Actor::Lens(plan.lenses[rank].name.clone()),
         }
     }
@@ -98,7 +117,7 @@ impl std::fmt::Display for Actor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Actor::Lens(name) => f.write_str(name),
-            Actor::Rule(number) => write!(f, "rule {number}"),
+            Actor::Rule(NamedRule { line, .. }) => write!(f, "rule in line {line}"),
         }
     }
 }
@@ -111,18 +130,28 @@ impl Entry {
 
 impl std::fmt::Display for Entry {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}.{}", self.by, self.filter)
+        match &self.by {
+            Actor::Lens(name) => write!(f, "{name}.{}", self.filter),
+            Actor::Rule(_) => write!(f, "{} of the {}", self.filter, self.by),
+        }
     }
 }
 
 /// Regions in the order of their sorted lens names, numbered from 1; 0 is outside all lenses, and only there where a
-/// rule acts.
-pub fn numbered<'a>(plan: &Plan, regions: impl Iterator<Item = &'a Region>) -> Vec<(usize, Region)> {
-    let distinct: HashSet<Region> = regions.copied().filter(|region| *region != Region::PLAIN).collect();
-    let mut named: Vec<(Vec<&str>, Region)> = distinct.into_iter().map(|r| (plan.names(r.set), r)).collect();
-    named.sort();
-    let outside = usize::from(named.first().is_some_and(|(_, region)| region.set.is_empty()));
-    named.into_iter().enumerate().map(|(place, (_, region))| (place + 1 - outside, region)).collect()
+/// rule acts. Where `known`, which a search has found, and `seen`, which a picture shows, are more together than a map
+/// has numbers for, only what is seen is numbered.
+pub fn numbered(plan: &Plan, known: &[Region], seen: &[Region]) -> Vec<(usize, Region)> {
+    let distinct = |regions: &mut dyn Iterator<Item = &Region>| -> HashSet<Region> {
+        regions.copied().filter(|region| *region != Region::PLAIN).collect()
+    };
+    let mut regions = distinct(&mut known.iter().chain(seen));
+    if regions.len() > MOST_NUMBERS {
+        regions = distinct(&mut seen.iter());
+    }
+    let mut regions: Vec<Region> = regions.into_iter().collect();
+    plan.sort_by_names(&mut regions);
+    let outside = usize::from(regions.first().is_some_and(|region| region.set.is_empty()));
+    regions.into_iter().enumerate().map(|(place, region)| (place + 1 - outside, region)).collect()
 }
 
 /// Every filter that acts in a region, content filters too, lowest first.

@@ -1,6 +1,6 @@
 //! The plan as an account: order, undecided pairs, regions, each with its reasons.
 
-use super::{LensSet, Plan, Reason, Reasons, Region, commute};
+use super::{Ended, LensSet, Plan, Reason, Reasons, Region, RegionSearch, commute};
 use crate::spec::Spec;
 
 /// Two lenses whose order matters and that only the order of the file separates.
@@ -16,6 +16,8 @@ pub struct Undecided {
 #[derive(Debug, Clone)]
 pub struct Account {
     pub regions: Vec<Region>,
+    /// Why the search for regions ended before it had looked everywhere.
+    pub ended: Option<Ended>,
     pub undecided: Vec<Undecided>,
     /// For each lens but the lowest: why it is above the one before it.
     pub order: Vec<Reason>,
@@ -23,11 +25,11 @@ pub struct Account {
 
 impl Account {
     pub fn new(spec: &Spec, plan: &Plan) -> Self {
-        let regions = plan.regions();
+        let RegionSearch { regions, ended } = plan.regions();
         let reasons = Reasons::new(spec, plan);
         let undecided = undecided(plan, &regions, &reasons);
         let order = (1..plan.lenses.len()).map(|rank| reasons.between(rank - 1, rank).as_ref().clone()).collect();
-        Self { regions, undecided, order }
+        Self { regions, ended, undecided, order }
     }
 }
 

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use super::{Instance, Item, Lens, LensSet, Plan, Region};
 use crate::appearance as wgsl;
+use crate::pieces::Edges;
 use crate::scene::{Closure, Scene};
 use crate::spec::{At, By, Cap, Filter, Spec};
 
@@ -23,8 +24,8 @@ pub struct Body {
 pub struct Member {
     /// Into [`Plan::instances`].
     pub instance: usize,
-    /// It is closed by itself, so that what it encloses is its own. All others of a body enclose something together.
-    pub closed: bool,
+    /// The first of the body's members that enclose something only together with it, itself if there is no other.
+    pub group: usize,
 }
 
 /// What closes an instance at a boundary.
@@ -41,22 +42,27 @@ pub struct Closing {
 /// The most nodes that a warning names.
 const MOST_NAMED: usize = 8;
 
-/// Leaves items only the caps that can be, and says which cannot.
+/// Nodes of which a lens or rule says the same, by model and node.
+type Nodes = BTreeMap<(usize, usize), String>;
+
+/// Leaves items only the caps that can be, and says which cannot, and which are not as they should be.
 pub(super) fn check(spec: &Spec, scene: &Scene, lenses: &[Lens], items: &mut [Item]) -> Vec<String> {
-    // By the lens or rule, then by the model and the node.
-    let mut open: BTreeMap<usize, BTreeMap<(usize, usize), String>> = BTreeMap::new();
+    // By the lens or rule, and by what is said.
+    let mut told: BTreeMap<(usize, Fault), Nodes> = BTreeMap::new();
     for item in items.iter_mut().filter(|item| !item.caps.is_empty()) {
         let scope = item.scope;
         let is_there = |rank: usize, lens: &Lens| lens.by == By::Pixel && scope.contains(rank);
         item.caps.retain(|(rank, _)| lenses.get(*rank).is_none_or(|lens| is_there(*rank, lens)));
         let model = &scene.models[item.model];
-        let closure = model.closure(item.mesh);
-        if closure.is_closed() {
-            continue;
+        let closure = model.closure(item.mesh, 1.0);
+        if let Some(fault) = Fault::of(&closure) {
+            for (rank, _) in &item.caps {
+                let name = || with_edges(&model.node_label(item.node), &closure.edges);
+                told.entry((*rank, fault)).or_default().entry((item.model, item.node)).or_insert_with(name);
+            }
         }
-        for (rank, _) in std::mem::take(&mut item.caps) {
-            let name = || open_node(&model.node_label(item.node), &closure);
-            open.entry(rank).or_default().entry((item.model, item.node)).or_insert_with(name);
+        if closure.closed == 0 {
+            item.caps.clear();
         }
     }
     for node in items.chunk_by_mut(is_same_node) {
@@ -68,29 +74,65 @@ pub(super) fn check(spec: &Spec, scene: &Scene, lenses: &[Lens], items: &mut [It
         let (place, name) = cap_of(spec, lenses, rank)?;
         Some(format!("{place}: `cap` of {name} closes nothing: with by = \"object\" it cuts no solid"))
     });
-    let open = open.into_iter().filter_map(|(rank, nodes)| {
+    let told = told.into_iter().filter_map(|((rank, fault), nodes)| {
         let (place, name) = cap_of(spec, lenses, rank)?;
         let more = nodes.len().saturating_sub(MOST_NAMED);
         let more = if more > 0 { format!(", and {more} more nodes") } else { String::new() };
         let names: Vec<String> = nodes.into_values().take(MOST_NAMED).collect();
-        Some(format!("{place}: `cap` of {name} leaves open what is not closed: {}{more}", names.join(", ")))
+        Some(format!("{place}: `cap` of {name} {}: {}{more}", fault.words(), names.join(", ")))
     });
-    idle.chain(open).collect()
+    idle.chain(told).collect()
+}
+
+/// What is wrong with the mesh of a node that is cut; the worst first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Fault {
+    Open,
+    OpenInPart,
+    Mended,
+    Turned,
+}
+
+impl Fault {
+    fn of(closure: &Closure) -> Option<Self> {
+        let faults = [
+            (closure.closed == 0, Self::Open),
+            (closure.open > 0, Self::OpenInPart),
+            (closure.mended > 0, Self::Mended),
+            (closure.edges.turned > 0, Self::Turned),
+        ];
+        faults.into_iter().find_map(|(is_so, fault)| is_so.then_some(fault))
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Open => "leaves open what is not closed",
+            Self::OpenInPart => "closes some pieces and leaves open those that are not closed",
+            Self::Mended => "takes for whole what has small holes",
+            Self::Turned => "takes for one side what has triangles turned against each other",
+        }
+    }
 }
 
 fn is_same_node(a: &Item, b: &Item) -> bool {
     (a.content, a.node) == (b.content, b.node)
 }
 
-fn open_node(name: &str, Closure { edges, open_edges, .. }: &Closure) -> String {
-    format!("{name} ({open_edges} of {edges} edges are open)")
+/// A node with what may be wrong with its mesh's edges.
+fn with_edges(name: &str, edges: &Edges) -> String {
+    let more = [(edges.turned, "turned"), (edges.touching, "self-touching")];
+    let more: String = more.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!(", {n} {what}")).collect();
+    format!("{name} ({} of {} edges are open{more})", edges.open, edges.all)
 }
 
 /// Where a lens or a rule first has a `cap`, and how messages call it.
 fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)> {
     let (filters, name) = match lenses.get(rank) {
         Some(lens) => (&spec.lenses[lens.index].filters, format!("lens `{}`", lens.name)),
-        None => (&spec.overlaps[rank - lenses.len()].filters, format!("overlap rule {}", rank - lenses.len())),
+        None => {
+            let rule = &spec.overlaps[rank - lenses.len()];
+            (&rule.filters, format!("the rule in line {}", spec.source.line(rule.when.span.start)))
+        }
     };
     let has_cap = |filter: &&At<Filter>| matches!(filter.value, Filter::Erase { cap: Some(_), .. });
     let line = spec.source.line(filters.iter().find(has_cap)?.span.start);
@@ -100,30 +142,48 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
 /// The nodes that may be cut, in each of the ways in which all of a node is shown; the smallest first: of those that lie
 /// in each other the inner ones.
 pub(super) fn bodies(scene: &Scene, items: &[Item], instances: &[Instance]) -> Vec<Body> {
-    let primitives = |node: &[Item]| node.iter().filter(|item| !item.is_simplified()).count();
-    let nodes = items.chunk_by(is_same_node).flat_map(|node| std::iter::repeat_n(primitives(node), node.len()));
-    let primitives_of_node: Vec<usize> = nodes.collect();
     // By the content, the node, the version and the lenses that move it.
     let mut ways: BTreeMap<(usize, usize, u32, Vec<usize>), Body> = BTreeMap::new();
     for (number, instance) in instances.iter().enumerate().filter(|(_, instance)| items[instance.item].is_cut) {
         let item = &items[instance.item];
         let way = instance.steps.iter().map(|step| step.rank).collect();
-        let closed = scene.models[item.model].closure(item.mesh).primitives[item.primitive];
         let body =
             ways.entry((item.content, item.node, item.ratio.to_bits(), way)).or_insert(Body { members: Vec::new() });
-        body.members.push(Member { instance: number, closed });
+        body.members.push(Member { instance: number, group: 0 });
     }
     let first = |body: &Body| &instances[body.members[0].instance];
-    // What a lens moves or simplifies only some primitives of is not closed there.
-    let is_whole = |body: &Body| primitives_of_node[first(body).item] == body.members.len();
+    let whole: Vec<Body> = ways.into_values().filter_map(|body| grouped(scene, items, instances, body)).collect();
     let size = |body: &Body| {
         let item = &items[first(body).item];
         let in_place = scene.models[item.model].node_bounds(item.node).size().element_product();
         in_place * first(body).shown_from_world.matrix3.determinant().abs()
     };
-    let mut bodies: Vec<(f64, Body)> = ways.into_values().filter(is_whole).map(|body| (size(&body), body)).collect();
+    let mut bodies: Vec<(f64, Body)> = whole.into_iter().map(|body| (size(&body), body)).collect();
     bodies.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     bodies.into_iter().map(|(_, body)| body).collect()
+}
+
+/// A body with its members by what they enclose together, without those that lack some of that: what a lens shows, moves or
+/// simplifies only some primitives of encloses nothing. `None` where nothing is left.
+fn grouped(scene: &Scene, items: &[Item], instances: &[Instance], body: Body) -> Option<Body> {
+    let item = |member: &Member| &items[instances[member.instance].item];
+    let first = item(&body.members[0]);
+    let closure = scene.models[first.model].closure(first.mesh, first.ratio);
+    let head = |member: &Member| closure.primitives[item(member).primitive].group;
+    // Of each group, told by its first primitive, how many there are and how many are here.
+    let mut counts: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
+    for primitive in closure.primitives.iter().filter(|primitive| !primitive.is_empty()) {
+        counts.entry(primitive.group).or_default()[0] += 1;
+    }
+    body.members.iter().for_each(|member| counts.entry(head(member)).or_default()[1] += 1);
+    let is_whole = |member: &Member| counts.get(&head(member)).is_some_and(|[all, here]| all == here);
+    let mut members: Vec<Member> = body.members.into_iter().filter(is_whole).collect();
+    // Here groups are told by the first member that is of one.
+    let mut firsts: BTreeMap<usize, usize> = BTreeMap::new();
+    for (number, member) in members.iter_mut().enumerate() {
+        member.group = *firsts.entry(head(member)).or_insert(number);
+    }
+    (!members.is_empty()).then_some(Body { members })
 }
 
 impl Item {
@@ -149,6 +209,11 @@ impl Plan {
         body.members.iter().fold(LensSet::EMPTY, |all, member| all | own(member))
     }
 
+    /// The lenses that do not act on the caps of a lens or rule: those below; a rule is above all lenses.
+    pub fn below_cap(&self, maker: usize) -> LensSet {
+        LensSet::below(maker.min(self.lenses.len()))
+    }
+
     /// What closes an instance at a boundary, if anything does.
     ///
     /// `around(n, behind)`: as for [`Plan::walk`], just before the boundary and just behind it.
@@ -168,7 +233,9 @@ impl Plan {
         }
         let changed = changed & self.by_pixel & (item.scope | item.shown_by);
         let boundary = if changed.contains(maker) { maker } else { changed.top()? };
-        Some(Closing { maker, boundary, region: Region { set: behind.set, stack: behind.stack } })
+        // It keeps the look that its maker gives it: lower lenses do not act on it.
+        let stack = behind.stack.minus(self.below_cap(maker));
+        Some(Closing { maker, boundary, region: Region { set: behind.set, stack } })
     }
 }
 

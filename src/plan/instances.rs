@@ -12,7 +12,7 @@ use super::lenses::Placed;
 use super::{Item, Lens, LensSet};
 use crate::InputError;
 use crate::lens::Volume;
-use crate::scene::{Aabb, Scene, Subject};
+use crate::scene::{Aabb, Scene, Selections, Subject};
 use crate::spec::{At, By, Filter, Pattern};
 use crate::view::View;
 
@@ -112,15 +112,21 @@ pub(super) fn collect(
     let mut instances: Vec<Instance> =
         items.iter().enumerate().map(|(index, item)| Instance::in_place(index, item, item.bounds)).collect();
     let movers: LensSet = (0..lenses.len()).filter(|rank| lenses[*rank].moves).collect();
+    let reaches: Vec<Aabb> = lenses
+        .iter()
+        .map(|lens| match lens.by {
+            By::Pixel if lens.moves => lens.volume.bounds(),
+            _ => Aabb::EVERYWHERE,
+        })
+        .collect();
+    let known = Selections::default();
     for (index, item) in items.iter().enumerate() {
+        let subject = item.subject(scene, &known);
         let mut ways = vec![Instance::in_place(index, item, moved_bounds(item, scene))];
         for rank in item.moved_by(lenses).iter() {
-            let reach = match lenses[rank].by {
-                By::Pixel => lenses[rank].volume.bounds(),
-                By::Object => Aabb::EVERYWHERE,
-            };
-            let movement = movement(&lenses[rank], item, scene, view);
-            let above: Vec<Instance> = ways.iter().filter_map(|way| way.through(rank, &movement, &reach)).collect();
+            let movement = movement(&lenses[rank], item, &subject, view);
+            let above = ways.iter().filter_map(|way| way.through(rank, &movement, &reaches[rank]));
+            let above: Vec<Instance> = above.collect();
             ways.extend(above);
             if ways.len() > MOST_WAYS || instances.len() + ways.len() > MOST_INSTANCES {
                 return Err(too_many(lenses, movers, ways.len() > MOST_WAYS));
@@ -147,10 +153,9 @@ fn too_many(lenses: &[Lens], movers: LensSet, ways: bool) -> InputError {
 }
 
 /// How a lens moves an item: from world k-1 to world k. What the lens shows is moved by the filters after `show`.
-fn movement(lens: &Lens, item: &Item, scene: &Scene, view: &View) -> DAffine3 {
+fn movement<'a>(lens: &'a Lens, item: &Item, subject: &Subject<'a>, view: &View) -> DAffine3 {
     let filters = moving_filters(&lens.filters);
-    let subject = item.subject(scene);
-    filters.iter().fold(DAffine3::IDENTITY, |before, filter| movement_of(filter, lens, item, &subject, view) * before)
+    filters.iter().fold(DAffine3::IDENTITY, |before, filter| movement_of(filter, lens, item, subject, view) * before)
 }
 
 fn moving_filters(filters: &[Filter]) -> &[Filter] {
@@ -159,7 +164,7 @@ fn moving_filters(filters: &[Filter]) -> &[Filter] {
 }
 
 /// Whether a lens moves an item where it acts on it.
-pub(super) fn moves(filters: &[Filter], subject: &Subject) -> bool {
+pub(super) fn moves<'a>(filters: &'a [Filter], subject: &Subject<'a>) -> bool {
     moving_filters(filters).iter().any(|filter| match filter {
         Filter::Magnify { factor, .. } => *factor != 1.0,
         Filter::Displace { nodes, .. } => displaces(nodes, subject),
@@ -167,11 +172,11 @@ pub(super) fn moves(filters: &[Filter], subject: &Subject) -> bool {
     })
 }
 
-fn displaces(nodes: &[At<Pattern>], subject: &Subject) -> bool {
+fn displaces<'a>(nodes: &'a [At<Pattern>], subject: &Subject<'a>) -> bool {
     nodes.is_empty() || subject.is_any(nodes, &[])
 }
 
-fn movement_of(filter: &Filter, lens: &Lens, item: &Item, subject: &Subject, view: &View) -> DAffine3 {
+fn movement_of<'a>(filter: &'a Filter, lens: &Lens, item: &Item, subject: &Subject<'a>, view: &View) -> DAffine3 {
     match filter {
         Filter::Magnify { factor, center } => {
             let center = center.map(|center| lens.world_from_shape.transform_point3(center.into()));

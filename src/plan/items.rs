@@ -6,17 +6,39 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use crate::InputError;
+use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
-use crate::scene::{Aabb, Across, Coincident, Model, Part, Primitive, Scene, Subject};
-use crate::spec::{At, By, Cap, Filter, Pattern, ShowWhat, Spec, lod};
+use crate::scene::{Aabb, Across, Coincident, Model, Part, Primitive, Scene, Selections, Subject};
+use crate::spec::{At, By, Cap, Filter, Pattern, PatternSet, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Content {
     /// Into [`Scene::models`].
     pub model: usize,
-    /// Patterns of the nodes it has; `None`: what the model draws.
-    pub nodes: Option<Vec<Pattern>>,
+    /// What of the model it has; `None`: all that the model draws.
+    pub only: Option<Selection>,
+}
+
+/// Some of a model, by names: what matches one of the patterns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selection {
+    pub nodes: Vec<Pattern>,
+    pub materials: Vec<Pattern>,
+}
+
+impl Selection {
+    fn new(nodes: &[At<Pattern>], materials: &[At<Pattern>]) -> Self {
+        let patterns = |list: &[At<Pattern>]| list.iter().map(|p| p.value.clone()).collect();
+        Self { nodes: patterns(nodes), materials: patterns(materials) }
+    }
+
+    /// For each node and for each material of a model whether it is selected.
+    fn masks(&self, model: &Model) -> (Vec<bool>, Vec<bool>) {
+        let materials = PatternSet::new(&self.materials);
+        let of_materials = model.materials.iter().map(|material| materials.matches(&material.name));
+        (model.nodes_matching(&self.nodes), of_materials.collect())
+    }
 }
 
 /// One primitive of one node of one content, or a simplified version of it.
@@ -96,10 +118,9 @@ impl Item {
     }
 
     /// What name patterns are held against.
-    pub(super) fn subject<'a>(&self, scene: &'a Scene) -> Subject<'a> {
-        let model = &scene.models[self.model];
-        let material = &model.materials[self.material - scene.material_base[self.model]].name;
-        Subject { model, node: self.node, material }
+    pub(crate) fn subject<'a>(&self, scene: &'a Scene, known: &'a Selections<'a>) -> Subject<'a> {
+        let material = self.material - scene.material_base[self.model];
+        Subject { model: &scene.models[self.model], node: self.node, material, known }
     }
 }
 
@@ -111,19 +132,29 @@ pub(super) fn collect(
     rules: &[Rule],
 ) -> Result<(Vec<Content>, Vec<Item>), InputError> {
     let contents = contents(spec, scene)?;
+    let known = Selections::default();
+    let of_lenses = lenses.iter().map(|lens| &lens.filters).chain(rules.iter().map(|rule| &rule.filters));
+    let relations: Vec<Relation> =
+        of_lenses.enumerate().map(|(rank, filters)| Relation::new(rank, filters, &contents, scene)).collect();
     let mut items: Vec<Item> = Vec::new();
     let mut first_triangle: u64 = 0;
     for (content_index, content) in contents.iter().enumerate() {
         let model = &scene.models[content.model];
+        let is_drawn = drawn(spec, model, content_index);
+        let selected = content.only.as_ref().map(|only| only.masks(model));
         for node in 0..model.nodes.len() {
-            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_part(spec, model, content_index, content, node))
-            else {
-                continue;
-            };
+            let is_named = || selected.as_ref().is_some_and(|(nodes, _)| nodes[node]);
+            let is_there = is_drawn[node] && (!model.nodes[node].hidden || is_named());
+            let Some(mesh) = model.nodes[node].mesh.filter(|_| is_there) else { continue };
             let bounds = model.primitive_bounds(node);
             let center = model.node_bounds(node).center();
             for (index, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
                 if primitive.triangles.is_empty() {
+                    continue;
+                }
+                let is_selected =
+                    |(nodes, materials): &(Vec<bool>, Vec<bool>)| nodes[node] || materials[primitive.material];
+                if !selected.as_ref().is_none_or(is_selected) {
                     continue;
                 }
                 let material = scene.material_base[content.model] + primitive.material;
@@ -150,20 +181,16 @@ pub(super) fn collect(
                     caps: Vec::new(),
                     is_cut: false,
                 };
-                let subject = item.subject(scene);
+                let subject = item.subject(scene, &known);
                 for (rank, lens) in lenses.iter().enumerate() {
-                    let lens_spec = &spec.lenses[order[rank]];
-                    if subject.is_in_scope_of(lens_spec) {
+                    if subject.is_in_scope_of(&spec.lenses[order[rank]]) {
                         item.scope.insert(rank);
                     }
-                    relate(&mut item, rank, &lens.filters, &subject, &contents, scene);
                     if lens.by == By::Object && lens.volume.contains(center) {
                         item.object.insert(rank);
                     }
                 }
-                for (number, rule) in rules.iter().enumerate() {
-                    relate(&mut item, lenses.len() + number, &rule.filters, &subject, &contents, scene);
-                }
+                relations.iter().for_each(|relation| relation.set(&mut item, &subject));
                 item.simplified_by =
                     item.simplified_by.minus(LensSet::below(lenses.len()).minus(item.scope | item.shown_by));
                 for version in versions(item, lenses, rules, scene)? {
@@ -232,100 +259,133 @@ pub(super) fn largest_scale(map: &DAffine3) -> f64 {
     [axes.x_axis, axes.y_axis, axes.z_axis].into_iter().map(DVec3::length).fold(0.0, f64::max)
 }
 
-/// Sets what the filters of one lens or rule mean to one item.
-fn relate(item: &mut Item, rank: usize, filters: &[Filter], subject: &Subject, contents: &[Content], scene: &Scene) {
-    if lod(filters.iter()).is_some() {
-        item.simplified_by.insert(rank);
-    }
-    let moves = instances::moves(filters, subject);
-    let last_show = filters.iter().rposition(|f| matches!(f, Filter::Show(_)));
-    // The cap of the first filter that erases it.
-    let erased = |filters: &[Filter]| {
-        filters.iter().find_map(|f| match f {
-            Filter::Erase { nodes, materials, cap } => {
-                let matches = (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials);
-                matches.then_some(*cap)
-            }
+/// What the filters of one lens or rule mean to items.
+struct Relation<'a> {
+    rank: usize,
+    filters: &'a [Filter],
+    /// Where its last `show` stands, and the content that that brings in.
+    show: Option<(usize, Option<usize>)>,
+    simplifies: bool,
+}
+
+impl<'a> Relation<'a> {
+    fn new(rank: usize, filters: &'a [Filter], contents: &[Content], scene: &Scene) -> Self {
+        let show = filters.iter().enumerate().rev().find_map(|(place, filter)| match filter {
+            Filter::Show(what) => Some((place, what)),
             _ => None,
-        })
-    };
-    let Some(show) = last_show else {
-        if let Some(cap) = erased(filters) {
-            item.removed_by.insert(rank);
-            item.caps.extend(cap.map(|cap| (rank, cap)));
-        } else if moves {
-            item.movers.insert(rank);
-        }
-        return;
-    };
-    let Filter::Show(what) = &filters[show] else { return };
-    let brings_in = contents.iter().position(|c| *c == content(what, scene)) == Some(item.content);
-    if brings_in {
-        match erased(&filters[show + 1..]) {
-            None => {
-                item.shown_by.insert(rank);
-                if moves {
-                    item.movers.insert(rank);
-                }
-            }
-            Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
-        }
+        });
+        let show = show.map(|(place, what)| {
+            let shown = content(what, scene);
+            (place, contents.iter().position(|content| *content == shown))
+        });
+        Self { rank, filters, show, simplifies: lod(filters.iter()).is_some() }
     }
-    // Whatever else is in the lens's scope makes room for what it shows.
-    item.removed_by.insert(rank);
+
+    /// Sets what they mean to one item.
+    fn set(&self, item: &mut Item, subject: &Subject<'a>) {
+        let rank = self.rank;
+        if self.simplifies {
+            item.simplified_by.insert(rank);
+        }
+        let moves = instances::moves(self.filters, subject);
+        // The cap of the first filter that erases it.
+        let erased = |filters: &'a [Filter]| {
+            filters.iter().find_map(|f| match f {
+                Filter::Erase { nodes, materials, cap } => {
+                    let matches = (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials);
+                    matches.then_some(*cap)
+                }
+                _ => None,
+            })
+        };
+        let Some((show, shown)) = self.show else {
+            if let Some(cap) = erased(self.filters) {
+                item.removed_by.insert(rank);
+                item.caps.extend(cap.map(|cap| (rank, cap)));
+            } else if moves {
+                item.movers.insert(rank);
+            }
+            return;
+        };
+        if shown == Some(item.content) {
+            match erased(&self.filters[show + 1..]) {
+                None => {
+                    item.shown_by.insert(rank);
+                    if moves {
+                        item.movers.insert(rank);
+                    }
+                }
+                Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
+            }
+        }
+        // Whatever else is in the lens's scope makes room for what it shows.
+        item.removed_by.insert(rank);
+    }
 }
 
 fn content(what: &ShowWhat, scene: &Scene) -> Content {
     match what {
-        ShowWhat::Alternate(name) => Content {
-            model: 1 + scene.alternates.iter().position(|a| *a == name.value).unwrap_or_default(),
-            nodes: None,
+        ShowWhat::Alternate { name, only } => Content {
+            model: model_of(name, scene),
+            only: (!only.is_empty()).then(|| Selection::new(&only.nodes, &only.materials)),
         },
-        ShowWhat::Nodes(patterns) => {
-            Content { model: 0, nodes: Some(patterns.iter().map(|p| p.value.clone()).collect()) }
-        }
+        ShowWhat::Nodes(patterns) => Content { model: 0, only: Some(Selection::new(patterns, &[])) },
     }
+}
+
+/// Into [`Scene::models`].
+fn model_of(alternate: &At<String>, scene: &Scene) -> usize {
+    1 + scene.alternates.iter().position(|known| *known == alternate.value).unwrap_or_default()
 }
 
 /// The scene, then what the enabled lenses show: alternates in their order, then node lists as they come.
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
-    let mut contents = vec![Content { model: 0, nodes: None }];
+    let mut contents = vec![Content { model: 0, only: None }];
     let mut shown: Vec<Content> = Vec::new();
+    let mut faults = Faults::default();
     let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
     let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
     for (enabled, filter) in of_lenses.chain(of_rules) {
         let Filter::Show(what) = &filter.value else { continue };
-        if let ShowWhat::Nodes(patterns) = what {
-            check_shown_nodes(spec, &scene.models[0], patterns)?;
-        }
+        check_shown(spec, scene, what, &mut faults);
         if enabled {
             shown.push(content(what, scene));
         }
     }
+    faults.finish()?;
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
     for content in shown {
-        if !contents.contains(&content) || (content.nodes.is_none() && content.model == 0) {
+        if !contents.contains(&content) {
             contents.push(content);
         }
     }
     Ok(contents)
 }
 
-fn check_shown_nodes(spec: &Spec, model: &Model, patterns: &[At<Pattern>]) -> Result<(), InputError> {
-    for pattern in patterns {
-        if !(0..model.nodes.len()).any(|n| model.node_matches(n, &pattern.value)) {
-            let message = format!("`show` finds no node of `{}` that matches `{}`", model.name, pattern.value);
-            return Err(InputError::at(&spec.source, pattern.span.clone(), message)
-                .help(model.nearest_node_name(&pattern.value.0)));
+/// What `show` names must be there.
+fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat, faults: &mut Faults) {
+    let (model, nodes, materials) = match what {
+        ShowWhat::Alternate { name, only } => {
+            (&scene.models[model_of(name, scene)], only.nodes.as_slice(), only.materials.as_slice())
         }
+        ShowWhat::Nodes(nodes) => (&scene.models[0], nodes.as_slice(), &[][..]),
+    };
+    let mut refuse = |what: &str, pattern: &At<Pattern>, help: String| {
+        let message = format!("`show` finds no {what} of `{}` that matches `{}`", model.name, pattern.value);
+        faults.note(InputError::at(&spec.source, pattern.span.clone(), message).help(help));
+    };
+    let (of_nodes, of_materials) = (model.node_names(), model.material_names());
+    for pattern in nodes.iter().filter(|p| !of_nodes.any(&p.value)) {
+        refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
     }
-    Ok(())
+    for pattern in materials.iter().filter(|p| !of_materials.any(&p.value)) {
+        refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
+    }
 }
 
-fn is_part(spec: &Spec, model: &Model, index: usize, content: &Content, node: usize) -> bool {
-    let wanted = match &content.nodes {
-        Some(patterns) => patterns.iter().any(|p| model.node_matches(node, p)),
-        None => index != 0 || !spec.scene.hide.iter().any(|p| model.node_matches(node, &p.value)),
-    };
-    wanted && model.nodes[node].drawn
+/// For each node whether a content may have it: its model draws it, and the spec does not hide it.
+fn drawn(spec: &Spec, model: &Model, content: usize) -> Vec<bool> {
+    let hide = if content == 0 { spec.scene.hide.as_slice() } else { &[] };
+    let hidden = model.nodes_matching(hide.iter().map(|pattern| &pattern.value));
+    model.nodes.iter().zip(hidden).map(|(node, hidden)| node.drawn && !hidden).collect()
 }

@@ -7,6 +7,7 @@ use glam::DAffine3;
 use super::op::Ops;
 use super::{LensSet, MAX_LENSES, Op, PriorityGraph, Rank, filter_name};
 use crate::InputError;
+use crate::error::Faults;
 use crate::lens::{MAX_PARTS, PixelRect, Placement, Volume, build_volume};
 use crate::scene::Scene;
 use crate::spec::{Attach, By, Filter, Glass, LensSpec, OverlapMode, Spec, lod};
@@ -86,13 +87,14 @@ pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Opt
             return Err(InputError::new(message).help("disable some lenses with `enabled = false`"));
         }
     }
-    spec.lenses
-        .iter()
-        .map(|lens| {
-            let volume = volume(spec, lens, scene, view)?;
-            Ok(lens.enabled.then_some(volume))
-        })
-        .collect()
+    let mut faults = Faults::default();
+    let volumes = spec.lenses.iter().map(|lens| {
+        let volume = faults.take(volume(spec, lens, scene, view));
+        volume.filter(|_| lens.enabled)
+    });
+    let volumes = volumes.collect();
+    faults.finish()?;
+    Ok(volumes)
 }
 
 fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Placed, InputError> {

@@ -93,7 +93,7 @@ fn rig(view: &View) -> Vec<LightRecord> {
 }
 
 fn file_lights(model: &Model) -> Vec<LightRecord> {
-    let lit = model.nodes.iter().filter(|n| n.drawn).filter_map(|n| Some((n, &model.lights[n.light?])));
+    let lit = model.nodes.iter().filter(|n| n.is_shown()).filter_map(|n| Some((n, &model.lights[n.light?])));
     lit.map(|(node, light)| {
         let forward = -node.world_from_local.matrix3.z_axis;
         let base = directional(forward.normalize_or(glam::DVec3::NEG_Z).as_vec3(), light.color, light.intensity);

@@ -12,6 +12,7 @@ mod lenses;
 mod light;
 mod op;
 mod order;
+mod own;
 mod reasons;
 mod regions;
 mod rules;
@@ -24,7 +25,7 @@ use std::sync::Arc;
 use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::Custom;
-use crate::scene::{Coincident, Scene};
+use crate::scene::{Coincident, Scene, SceneId};
 use crate::spec::{Backfaces, Spec, ToneMapping};
 use crate::view::View;
 
@@ -33,13 +34,14 @@ pub use account::{Account, Undecided};
 pub use caps::{Body, Closing, Member};
 pub use decide::{Reason, commute};
 pub use instances::{Instance, Step};
-pub use items::{Content, Item};
+pub use items::{Content, Item, Selection};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{Op, filter_name};
 pub use order::{Declared, Key, PriorityGraph, Rank};
+pub use own::OwnSurface;
 pub use reasons::Reasons;
-pub use regions::Region;
+pub use regions::{Ended, Region, RegionSearch};
 pub use rules::{Rule, Test};
 pub use screen::ScreenStep;
 pub use walk::{Verdict, survivors};
@@ -47,6 +49,8 @@ pub use walk::{Verdict, survivors};
 /// A picture fully decided: what is seen from where, which lenses stand where, who acts in which order.
 #[derive(Debug, Clone)]
 pub struct Plan {
+    /// The scene that it was made for.
+    pub scene: SceneId,
     pub view: View,
     /// Samples a pixel, a square number.
     pub samples: u32,
@@ -103,6 +107,7 @@ pub struct TextureSpace {
 impl Plan {
     /// Decides a spec over its opened scene. All that can be wrong with the two together is found here.
     pub fn new(spec: &Spec, scene: &Scene) -> Result<Self, InputError> {
+        scene.bound_comparisons(spec)?;
         let mut view = camera::place(spec, scene)?;
         let graph = PriorityGraph::new(spec)?;
         let volumes = lenses::volumes(spec, scene, &view)?;
@@ -115,10 +120,13 @@ impl Plan {
         let op::Ops { list: ops, channels, customs, custom_words, .. } = ops;
         let (contents, mut items) = items::collect(spec, scene, &order, &lenses, &rules)?;
         let mut warnings = warnings::collect(spec, scene);
+        warnings.extend(graph.idle_cycles(spec));
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene, &view)?;
+        warnings.extend(warnings::of_reach(spec, &lenses, &items, &instances));
         Ok(Self {
+            scene: scene.id,
             samples: spec.image.samples,
             tone_mapping: match spec.image.tone_mapping {
                 ToneMapping::None => wgsl::TONE_NONE.0,

@@ -377,6 +377,7 @@ mod tests {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         };
         let mesh = Mesh { name: "triangle".into(), primitives: vec![primitive] };
         let materials = vec![Material::default()];

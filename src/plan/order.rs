@@ -1,17 +1,21 @@
 //! The priority graph: declared edges, cycles, and the one total order (SEMANTICS section 3).
 
 use std::cmp::{Ordering, Reverse};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 
 use petgraph::graph::{DiGraph, EdgeIndex, NodeIndex};
 use petgraph::visit::EdgeRef;
 
 use crate::InputError;
-use crate::spec::{At, Pattern, Spec};
+use crate::limits::MAX_EDGES;
+use crate::spec::{At, Names, Pattern, Spec};
+
+/// The most edges of a cycle that a report shows in the file; its text tells all.
+const MOST_LABELS: usize = 32;
 
 /// Which key declared that one lens is above another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Key {
     Over,
     Under,
@@ -52,17 +56,26 @@ pub struct Rank {
 }
 
 impl PriorityGraph {
-    /// Expands the patterns of a spec and refuses cycles.
+    /// Expands the patterns of a spec and refuses cycles of enabled lenses.
     pub fn new(spec: &Spec) -> Result<Self, InputError> {
         let mut graph = DiGraph::new();
         spec.lenses.iter().for_each(|_| {
             graph.add_node(());
         });
+        let names = Names::new(spec.lenses.iter().map(|lens| lens.name.value.as_str()));
+        // What one key says twice of two lenses is one edge.
+        let mut declared_by: HashSet<(usize, usize, Key)> = HashSet::new();
         for (index, lens) in spec.lenses.iter().enumerate() {
             for (key, patterns) in [(Key::Over, &lens.over), (Key::Under, &lens.under), (Key::Hides, &lens.hides)] {
                 for pattern in patterns {
-                    for other in matched(spec, index, pattern)? {
+                    for other in matched(spec, &names, index, pattern)? {
                         let (below, above) = if key == Key::Under { (index, other) } else { (other, index) };
+                        if !declared_by.insert((below, above, key)) {
+                            continue;
+                        }
+                        if declared_by.len() > MAX_EDGES {
+                            return Err(too_many_edges(spec, pattern));
+                        }
                         let declared = Declared { key, span: pattern.span.clone() };
                         graph.add_edge(NodeIndex::new(below), NodeIndex::new(above), declared);
                     }
@@ -70,20 +83,41 @@ impl PriorityGraph {
             }
         }
         let graph = Self { graph };
-        match graph.cycle() {
+        match graph.cycles(&|lens| spec.lenses[lens].enabled).into_iter().next() {
             Some(cycle) => Err(cycle_error(spec, &graph, &cycle)),
             None => Ok(graph),
         }
     }
 
-    /// A shortest cycle, the one through the lens that stands first in the file.
-    fn cycle(&self) -> Option<Vec<EdgeIndex>> {
-        petgraph::algo::tarjan_scc(&self.graph)
-            .into_iter()
-            .filter(|component| component.len() > 1)
-            .flatten()
-            .min()
-            .and_then(|start| self.path(start, start, &|_| true))
+    /// The cycles that only disabled lenses close, a line each: what would be an error with all of them enabled.
+    pub fn idle_cycles(&self, spec: &Spec) -> Vec<String> {
+        let warning = |cycle: Vec<EdgeIndex>| {
+            let line = spec.source.line(self.graph[cycle[0]].span.start);
+            let ends = |edge: &EdgeIndex| self.graph.edge_endpoints(*edge);
+            let mut disabled: Vec<&str> = cycle
+                .iter()
+                .filter_map(|edge| Some(&spec.lenses[ends(edge)?.0.index()]).filter(|lens| !lens.enabled))
+                .map(|lens| lens.name.value.as_str())
+                .collect();
+            disabled.sort_unstable();
+            let is = if disabled.len() == 1 { "is" } else { "are" };
+            format!(
+                "{}:{line}: once {} {is} enabled, {}",
+                spec.source.name,
+                disabled.join(", "),
+                cycle_text(spec, self, &cycle)
+            )
+        };
+        self.cycles(&|_| true).into_iter().map(warning).collect()
+    }
+
+    /// A shortest cycle of each tangle of lenses that count: the one through the lens that stands first in the file.
+    fn cycles(&self, counts: &dyn Fn(usize) -> bool) -> Vec<Vec<EdgeIndex>> {
+        let counted = petgraph::visit::NodeFiltered::from_fn(&self.graph, |node| counts(node.index()));
+        let tangles = petgraph::algo::tarjan_scc(&counted).into_iter().filter(|component| component.len() > 1);
+        let mut starts: Vec<NodeIndex> = tangles.filter_map(|component| component.into_iter().min()).collect();
+        starts.sort_unstable();
+        starts.into_iter().filter_map(|start| self.path(start, start, counts)).collect()
     }
 
     /// The shortest chain of edges upwards from one lens to another over lenses that count, by file order where
@@ -222,9 +256,9 @@ impl PartialEq for Distance {
 impl Eq for Distance {}
 
 /// The other lenses a pattern stands for.
-fn matched(spec: &Spec, own: usize, pattern: &At<Pattern>) -> Result<Vec<usize>, InputError> {
-    let others: Vec<usize> =
-        (0..spec.lenses.len()).filter(|i| *i != own && pattern.value.matches(&spec.lenses[*i].name.value)).collect();
+fn matched(spec: &Spec, names: &Names, own: usize, pattern: &At<Pattern>) -> Result<Vec<usize>, InputError> {
+    let mut others = names.matched(&pattern.value);
+    others.retain(|lens| *lens != own);
     if others.is_empty() {
         let message = format!("no other lens matches `{}`", pattern.value);
         return Err(InputError::at(&spec.source, pattern.span.clone(), message)
@@ -233,27 +267,39 @@ fn matched(spec: &Spec, own: usize, pattern: &At<Pattern>) -> Result<Vec<usize>,
     Ok(others)
 }
 
+fn too_many_edges(spec: &Spec, pattern: &At<Pattern>) -> InputError {
+    let message = format!("`over`, `under` and `hides` put more than {MAX_EDGES} pairs of lenses in order");
+    InputError::at(&spec.source, pattern.span.clone(), message)
+        .help("`priority` orders any number of lenses without naming pairs")
+}
+
 fn cycle_error(spec: &Spec, graph: &PriorityGraph, cycle: &[EdgeIndex]) -> InputError {
-    let name = |lens: NodeIndex| spec.lenses[lens.index()].name.value.as_str();
-    let ends = |edge: EdgeIndex| graph.graph.edge_endpoints(edge).expect("edges of the cycle are in the graph");
-    let mut names: Vec<&str> = cycle.iter().map(|edge| name(ends(*edge).0)).collect();
-    names.push(names[0]);
-    let lines: Vec<String> = cycle
-        .iter()
-        .map(|edge| {
-            let declared = &graph.graph[*edge];
-            let (below, above) = ends(*edge);
-            let line = spec.source.line(declared.span.start);
-            format!("line {line} (`{}`) puts `{}` below `{}`", declared.key.name(), name(below), name(above))
-        })
-        .collect();
-    let message = format!("the order of the lenses goes in a circle: {}: {}", names.join(" < "), lines.join(", "));
-    let mut error = InputError::new(message).help("remove one of these edges");
+    let mut error = InputError::new(cycle_text(spec, graph, cycle)).help("remove one of these edges");
     error.source_text = Some(spec.source.clone());
-    for edge in cycle {
-        let (below, above) = ends(*edge);
-        let text = format!("`{}` below `{}`", name(below), name(above));
-        error.labels.push((graph.graph[*edge].span.clone(), text));
+    for edge in cycle.iter().take(MOST_LABELS) {
+        let (below, above) = names_of_ends(spec, graph, *edge);
+        error.labels.push((graph.graph[*edge].span.clone(), format!("`{below}` below `{above}`")));
     }
     error
+}
+
+/// "the order of the lenses goes in a circle", with the whole circle, each edge with its line.
+fn cycle_text(spec: &Spec, graph: &PriorityGraph, cycle: &[EdgeIndex]) -> String {
+    let ends = || cycle.iter().map(|edge| names_of_ends(spec, graph, *edge));
+    let mut names: Vec<&str> = ends().map(|(below, _)| below).collect();
+    names.push(names[0]);
+    let lines = cycle.iter().zip(ends()).map(|(edge, (below, above))| {
+        let declared = &graph.graph[*edge];
+        let line = spec.source.line(declared.span.start);
+        format!("line {line} (`{}`) puts `{below}` below `{above}`", declared.key.name())
+    });
+    let lines: Vec<String> = lines.collect();
+    format!("the order of the lenses goes in a circle: {}: {}", names.join(" < "), lines.join(", "))
+}
+
+/// Below and above.
+fn names_of_ends<'a>(spec: &'a Spec, graph: &PriorityGraph, edge: EdgeIndex) -> (&'a str, &'a str) {
+    let name = |lens: NodeIndex| spec.lenses[lens.index()].name.value.as_str();
+    let (below, above) = graph.graph.edge_endpoints(edge).expect("edges of the cycle are in the graph");
+    (name(below), name(above))
 }

@@ -10,6 +10,8 @@ use crate::spec::{Condition, Filter, Spec, lod};
 /// A rule. In stacks it stands at the rank [`Plan::rule_rank`], behind all lenses.
 #[derive(Debug, Clone)]
 pub struct Rule {
+    /// Of its condition in the spec, from 1: people are told of rules by it.
+    pub line: usize,
     pub when: Test,
     pub filters: Vec<Filter>,
     /// Its appearance filters in [`Plan::ops`].
@@ -59,6 +61,7 @@ pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Result<Vec
         let own = ops.append(&rule.filters)?;
         let filters: Vec<Filter> = rule.filters.iter().map(|f| f.value.clone()).collect();
         Ok(Rule {
+            line: spec.source.line(rule.when.span.start),
             when: Test::new(&rule.when.value, lenses),
             translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             ops: own,

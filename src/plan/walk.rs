@@ -94,6 +94,10 @@ impl Plan {
                 } else {
                     verdict.here = false;
                     verdict.removed_by.insert(rank);
+                    // Who else acts is asked only of what is in place, and there are many ways to be moved.
+                    if instance.is_moved() {
+                        break;
+                    }
                 }
             }
             if shows {
@@ -190,7 +194,7 @@ impl Plan {
     }
 
     /// The lenses that may mean something to an item, of those around a point.
-    fn applying(&self, item: &Item, around: LensSet) -> LensSet {
+    pub(super) fn applying(&self, item: &Item, around: LensSet) -> LensSet {
         ((around & self.by_pixel) | item.object) & (item.scope | item.shown_by)
     }
 

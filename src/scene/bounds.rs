@@ -52,7 +52,9 @@ impl Model {
 
     /// Tight world bounds of what the chosen scene draws.
     pub fn bounds(&self) -> Aabb {
-        (0..self.nodes.len()).filter(|i| self.nodes[*i].drawn).fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
+        (0..self.nodes.len())
+            .filter(|i| self.nodes[*i].is_shown())
+            .fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
     }
 }
 
@@ -86,6 +88,7 @@ mod tests {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         };
         let meshes = vec![Mesh { name: "mesh".into(), primitives: vec![primitive] }];
         Model { nodes: vec![node], meshes, ..Model::default() }

@@ -1,65 +1,142 @@
-//! Whether meshes are closed: only those have an inside that a cut can lay open.
+//! Which parts of meshes enclose something: only those have an inside that a cut can lay open (SEMANTICS 6.6).
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use rayon::prelude::*;
+use glam::Vec3;
 
-use super::{Mesh, Model, Primitive};
+use super::{Aabb, Mesh, Model};
+use crate::pieces::{Edges, Pieces, Role, Welder};
 
-/// Where a mesh ends: its edges, once corners at the same place are one.
-///
-/// An edge is closed if triangles run along it as often one way as the other. So parts may touch in an edge, and of
-/// any place it can be said how often the surface winds around it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// What a mesh encloses, once corners at the same place are one.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Closure {
-    pub edges: usize,
-    /// Edges where the mesh ends, or where triangles are turned against each other.
-    pub open_edges: usize,
-    /// Of each primitive, whether it is closed by itself.
-    pub primitives: Vec<bool>,
+    pub edges: Edges,
+    /// Its connected pieces that enclose something.
+    pub closed: usize,
+    /// Those of them that do so because their holes are closed over.
+    pub mended: usize,
+    /// Its pieces that enclose nothing.
+    pub open: usize,
+    pub primitives: Vec<Enclosing>,
+}
+
+/// What a primitive has of closed pieces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Enclosing {
+    /// The first of the primitives that have pieces together with it, itself if there is no other.
+    pub group: usize,
+    /// Of each triangle; none where all are [`Role::PLAIN`].
+    pub roles: Vec<Role>,
+    /// What closes holes over, as triangles after its own.
+    pub lids: Vec<([Vec3; 3], Role)>,
+    triangles: usize,
+}
+
+impl Enclosing {
+    /// It has no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.triangles == 0
+    }
+
+    /// Of one of its triangles, or of a lid behind them.
+    pub fn role(&self, triangle: usize) -> Role {
+        let lid = triangle.checked_sub(self.triangles).and_then(|lid| self.lids.get(lid));
+        lid.map_or(self.roles.get(triangle).copied().unwrap_or(Role::PLAIN), |lid| lid.1)
+    }
 }
 
 impl Closure {
+    /// All of it is closed, without mending.
     pub fn is_closed(&self) -> bool {
-        self.open_edges == 0
+        self.open == 0 && self.mended == 0
     }
 
-    pub(super) fn new(mesh: &Mesh) -> Self {
-        let mut places = HashMap::new();
-        let runs: Vec<Vec<Run>> = mesh.primitives.iter().map(|primitive| runs(primitive, &mut places)).collect();
-        let (edges, open_edges) = count(runs.concat());
-        let primitives = runs.into_iter().map(|own| count(own).1 == 0).collect();
-        Self { edges, open_edges, primitives }
+    /// Of the version of a mesh with a share of its triangles.
+    pub(super) fn new(mesh: &Mesh, ratio: f32) -> Self {
+        let lists: Vec<&[[u32; 3]]> = mesh.primitives.iter().map(|p| p.version(ratio).unwrap_or_default()).collect();
+        let used = mesh.primitives.iter().zip(&lists).flat_map(|(primitive, list)| {
+            list.iter().flatten().map(|corner| primitive.positions[*corner as usize].as_dvec3())
+        });
+        let bounds = Aabb::from_points(used);
+        let half = (bounds.size().max_element() * 0.5).max(f64::MIN_POSITIVE);
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element() / half;
+        let mut welder = Welder::new(largest);
+        // As the file has them.
+        let mut places: Vec<Vec3> = Vec::new();
+        let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(lists.iter().map(|list| list.len()).sum());
+        for (primitive, list) in mesh.primitives.iter().zip(&lists) {
+            let mut welded = vec![u32::MAX; primitive.positions.len()];
+            let mut vertex = |corner: u32| {
+                let known = &mut welded[corner as usize];
+                if *known == u32::MAX {
+                    let place = primitive.positions[corner as usize];
+                    *known = welder.vertex((place.as_dvec3() - bounds.center()) / half);
+                    places.resize(places.len().max(*known as usize + 1), place);
+                }
+                *known
+            };
+            triangles.extend(list.iter().map(|corners| corners.map(&mut vertex)));
+        }
+        let pieces = Pieces::new(&welder.vertices, &triangles);
+        let primitives = enclosing(&lists, &pieces, &places);
+        let Pieces { edges, closed, mended, open, .. } = pieces;
+        Self { edges, closed, mended, open, primitives }
     }
 }
 
-/// A triangle's way along an edge: the edge's ends, the lower first, and whether it starts there.
-type Run = ([u32; 2], bool);
-
-fn runs(primitive: &Primitive, places: &mut HashMap<[u32; 3], u32>) -> Vec<Run> {
-    let place = |position: &glam::Vec3| {
-        let next = places.len() as u32;
-        // Zeros of either sign are one place.
-        *places.entry((*position + 0.0).to_array().map(f32::to_bits)).or_insert(next)
-    };
-    let corners: Vec<u32> = primitive.positions.iter().map(place).collect();
-    let sides = primitive.triangles.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let sides = sides.map(|ends| ends.map(|corner| corners[*corner as usize])).filter(|[from, to]| from != to);
-    sides.map(|[from, to]| ([from.min(to), from.max(to)], from < to)).collect()
+/// `lists`: the triangles of each primitive.
+fn enclosing(lists: &[&[[u32; 3]]], pieces: &Pieces, places: &[Vec3]) -> Vec<Enclosing> {
+    let starts = lists.iter().scan(0, |end, list| {
+        *end += list.len();
+        Some(*end - list.len())
+    });
+    let ranges: Vec<std::ops::Range<usize>> =
+        starts.zip(lists).map(|(start, list)| start..start + list.len()).collect();
+    // Of each piece, the first primitive that has some of it; of each primitive, an earlier one in its group.
+    let mut firsts: BTreeMap<u32, usize> = BTreeMap::new();
+    let mut groups: Vec<usize> = (0..lists.len()).collect();
+    for (primitive, range) in ranges.iter().enumerate() {
+        let mut last = None;
+        for i in range.clone().filter(|i| pieces.roles[*i].is_closed()) {
+            let piece = pieces.numbers[i];
+            if last == Some(piece) {
+                continue;
+            }
+            last = Some(piece);
+            let first = *firsts.entry(piece).or_insert(primitive);
+            let (a, b) = (head(&groups, first), head(&groups, primitive));
+            groups[a.max(b)] = a.min(b);
+        }
+    }
+    let mut all: Vec<Enclosing> = ranges
+        .into_iter()
+        .enumerate()
+        .map(|(primitive, range)| {
+            let roles = &pieces.roles[range.clone()];
+            let are_plain = roles.iter().all(|role| *role == Role::PLAIN);
+            let roles = if are_plain { Vec::new() } else { roles.to_vec() };
+            Enclosing { group: head(&groups, primitive), roles, lids: Vec::new(), triangles: range.len() }
+        })
+        .collect();
+    for (corners, role, piece) in &pieces.lids {
+        if let Some(primitive) = firsts.get(piece) {
+            all[*primitive].lids.push((corners.map(|corner| places[corner as usize]), *role));
+        }
+    }
+    all
 }
 
-/// Edges, and those of them that are open.
-fn count(mut runs: Vec<Run>) -> (usize, usize) {
-    runs.par_sort_unstable();
-    let open = |runs: &&[Run]| 2 * runs.iter().filter(|(_, forward)| *forward).count() != runs.len();
-    let edges = || runs.chunk_by(|a, b| a.0 == b.0);
-    (edges().count(), edges().filter(open).count())
+fn head(groups: &[usize], mut primitive: usize) -> usize {
+    while groups[primitive] != primitive {
+        primitive = groups[primitive];
+    }
+    primitive
 }
 
-/// What [`Model::closure`] remembers of each mesh; as [`super::BoundsCache`].
+/// What [`Model::closure`] remembers of each version of a mesh, by the bits of its ratio; as [`super::BoundsCache`].
 #[derive(Debug, Default)]
-pub struct ClosureCache(Mutex<Vec<Option<Arc<Closure>>>>);
+pub struct ClosureCache(Mutex<BTreeMap<(usize, u32), Arc<Closure>>>);
 
 impl Clone for ClosureCache {
     /// An empty one: the other model may be changed.
@@ -69,25 +146,24 @@ impl Clone for ClosureCache {
 }
 
 impl Model {
-    /// Where a mesh ends, if anywhere; looked for once.
-    pub fn closure(&self, mesh: usize) -> Arc<Closure> {
+    /// What a mesh encloses, or the version of it with a share of its triangles; looked for once.
+    pub fn closure(&self, mesh: usize, ratio: f32) -> Arc<Closure> {
         let cache = || self.closure_cache.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = cache().get(mesh).and_then(Option::clone) {
-            return known;
+        let key = (mesh, ratio.to_bits());
+        if let Some(known) = cache().get(&key) {
+            return Arc::clone(known);
         }
         // Without the lock: the threads that sort edges may take up other work meanwhile, which asks as well.
-        let found = Arc::new(Closure::new(&self.meshes[mesh]));
-        let mut known = cache();
-        let length = self.meshes.len().max(known.len());
-        known.resize(length, None);
-        known[mesh].get_or_insert(found).clone()
+        let found = Arc::new(Closure::new(&self.meshes[mesh], ratio));
+        cache().entry(key).or_insert(found).clone()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
+    use rayon::prelude::*;
 
+    use super::super::Primitive;
     use super::*;
 
     /// A tetrahedron, each triangle with corners of its own, its faces in these primitives.
@@ -102,21 +178,34 @@ mod tests {
         Mesh { name: String::new(), primitives: primitives.iter().map(primitive).collect() }
     }
 
-    #[test]
-    fn primitives_close_a_mesh_together() {
-        let whole = Closure::new(&tetrahedron(&[&[0, 1, 2, 3]]));
-        assert_eq!(whole, Closure { edges: 6, open_edges: 0, primitives: vec![true] });
-        let parts = Closure::new(&tetrahedron(&[&[0, 3], &[1, 2]]));
-        assert_eq!(parts, Closure { edges: 6, open_edges: 0, primitives: vec![false, false] });
+    fn closure(mesh: &Mesh) -> Closure {
+        Closure::new(mesh, 1.0)
+    }
+
+    fn groups(closure: &Closure) -> Vec<usize> {
+        closure.primitives.iter().map(|primitive| primitive.group).collect()
     }
 
     #[test]
-    fn a_missing_or_a_turned_triangle_opens_its_edges() {
-        let missing = Closure::new(&tetrahedron(&[&[0, 1, 2]]));
-        assert_eq!((missing.edges, missing.open_edges), (6, 3));
+    fn primitives_close_a_mesh_together() {
+        let whole = closure(&tetrahedron(&[&[0, 1, 2, 3]]));
+        assert_eq!((whole.edges, whole.closed, whole.open), (Edges { all: 6, ..Edges::default() }, 1, 0));
+        assert!(whole.primitives[0].roles.is_empty(), "nothing is to be said of each triangle");
+        let parts = closure(&tetrahedron(&[&[0, 3], &[1, 2]]));
+        assert_eq!((parts.closed, groups(&parts)), (1, vec![0, 0]));
+        let two = closure(&tetrahedron(&[&[0, 1, 2, 3], &[0, 1, 2, 3]]));
+        assert_eq!(groups(&two), [0, 1], "of triangles over the same corners one counts");
+    }
+
+    #[test]
+    fn a_missing_triangle_opens_its_edges_and_a_turned_one_turns_them() {
+        let missing = closure(&tetrahedron(&[&[0, 1, 2]]));
+        assert_eq!((missing.edges.all, missing.edges.open, missing.closed, missing.open), (6, 3, 0, 1));
+        assert_eq!(missing.primitives[0].role(2), Role::OPEN);
         let mut turned = tetrahedron(&[&[0, 1, 2, 3]]);
         turned.primitives[0].triangles[2].swap(0, 1);
-        assert_eq!(Closure::new(&turned).open_edges, 3);
+        let turned = closure(&turned);
+        assert_eq!((turned.edges.open, turned.edges.turned, turned.closed), (0, 3, 1));
     }
 
     #[test]
@@ -124,14 +213,51 @@ mod tests {
         let mut mesh = tetrahedron(&[&[0, 1, 2, 3], &[0, 1, 2, 3]]);
         // The other one turned by half around the x axis, which both have for an edge.
         mesh.primitives[1].positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, -p.y, -p.z));
-        assert_eq!(Closure::new(&mesh), Closure { edges: 11, open_edges: 0, primitives: vec![true, true] });
+        let both = closure(&mesh);
+        assert_eq!(both.edges, Edges { all: 11, touching: 1, ..Edges::default() });
+        assert_eq!((both.closed, groups(&both)), (2, vec![0, 1]));
+    }
+
+    #[test]
+    fn what_is_small_and_far_from_the_origin_is_closed_as_its_rounding_allows() {
+        let mut mesh = tetrahedron(&[&[0, 1], &[2, 3]]);
+        let far = Vec3::new(4e6, -3e6, 2e5);
+        mesh.primitives[0].positions.iter_mut().for_each(|p| *p = *p * 100.0 + far);
+        mesh.primitives[1].positions.iter_mut().for_each(|p| *p = *p * 100.0 + far + Vec3::X * 0.25);
+        assert!(closure(&mesh).is_closed());
+    }
+
+    #[test]
+    fn a_small_hole_has_a_lid_of_the_first_primitive() {
+        // A strip of 32 sides with two ends, one triangle short.
+        let at = |i: u32, y: f32| {
+            let angle = i as f32 / 32.0 * std::f32::consts::TAU;
+            Vec3::new(angle.cos(), y, angle.sin())
+        };
+        let tube = |i| vec![at(i, 0.0), at(i, 1.0), at(i + 1, 1.0), at(i, 0.0), at(i + 1, 1.0), at(i + 1, 0.0)];
+        let end = |y, i| {
+            if y == 0.0 { vec![Vec3::ZERO, at(i, y), at(i + 1, y)] } else { vec![Vec3::Y, at(i + 1, y), at(i, y)] }
+        };
+        let of = |positions: Vec<Vec3>| Primitive {
+            triangles: (0..positions.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+            positions,
+            ..Primitive::default()
+        };
+        let side = of((0..32).flat_map(tube).collect());
+        let ends = of((0..32).flat_map(|i| [end(0.0, i), end(1.0, i)]).skip(1).flatten().collect());
+        let mended = closure(&Mesh { name: String::new(), primitives: vec![side, ends] });
+        assert_eq!((mended.closed, mended.mended, mended.edges.open, groups(&mended)), (1, 1, 3, vec![0, 0]));
+        let [side, ends] = &mended.primitives[..] else { panic!("two primitives") };
+        assert_eq!((side.lids.len(), ends.lids.len()), (1, 0));
+        assert_eq!(side.role(64), side.lids[0].1);
+        assert!(side.role(63) == Role::PLAIN && side.lids[0].0.iter().all(|p| p.y == 0.0));
     }
 
     #[test]
     fn many_threads_may_ask_at_once() {
         let whole = tetrahedron(&[&[0, 1, 2, 3][..]; 20_000]);
         let model = Model { meshes: vec![whole], ..Model::default() };
-        let found: Vec<Arc<Closure>> = (0..64).into_par_iter().map(|_| model.closure(0)).collect();
+        let found: Vec<Arc<Closure>> = (0..64).into_par_iter().map(|_| model.closure(0, 1.0)).collect();
         assert!(found.iter().all(|closure| closure.is_closed() && Arc::ptr_eq(closure, &found[0])));
     }
 
@@ -139,6 +265,6 @@ mod tests {
     fn a_triangle_without_area_opens_nothing() {
         let mut mesh = tetrahedron(&[&[0, 1, 2, 3]]);
         mesh.primitives[0].triangles.push([0, 0, 1]);
-        assert!(Closure::new(&mesh).is_closed());
+        assert!(closure(&mesh).is_closed());
     }
 }

@@ -3,20 +3,29 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::Model;
+use super::{Budget, Model};
 use crate::InputError;
 use crate::lens::{LensMeshes, MeshForm};
 use crate::spec::{At, MeshShape, Shape, Spec};
 
-/// Reads each file once and makes its solids. `known` are models that are open already, as their files show them.
-pub fn open(spec: &Spec, known: &BTreeMap<&Path, &Model>) -> Result<LensMeshes, InputError> {
+/// Reads each file once and makes its solids; and what the files left out or repaired. `known` are models that are open
+/// already, as their files show them.
+pub fn open(
+    spec: &Spec,
+    known: &BTreeMap<&Path, &Model>,
+    allow_outside: bool,
+    budget: &mut Budget,
+) -> Result<(LensMeshes, Vec<String>), InputError> {
+    let mut warnings = Vec::new();
     let mut opened: BTreeMap<&Path, Model> = BTreeMap::new();
     let mut meshes = LensMeshes::default();
     for shape in spec.lenses.iter().flat_map(|lens| lens.shape.parts()) {
         let Shape::Mesh(mesh) = &shape.value else { continue };
         let path = mesh.file.value.as_path();
         if !known.contains_key(path) && !opened.contains_key(path) {
-            let model = Model::load(path, None).map_err(|e| e.or_at(&spec.source, mesh.file.span.clone()))?;
+            let model = Model::load_within(path, None, allow_outside, budget)
+                .map_err(|e| e.or_at(&spec.source, mesh.file.span.clone()))?;
+            warnings.extend(model.named_warnings());
             opened.insert(path, model);
         }
         let model = known.get(path).copied().or(opened.get(path));
@@ -24,7 +33,7 @@ pub fn open(spec: &Spec, known: &BTreeMap<&Path, &Model>) -> Result<LensMeshes, 
             meshes.insert(mesh, solid(spec, shape, mesh, model)?);
         }
     }
-    Ok(meshes)
+    Ok((meshes, warnings))
 }
 
 fn solid(spec: &Spec, shape: &At<Shape>, mesh: &MeshShape, model: &Model) -> Result<MeshForm, InputError> {

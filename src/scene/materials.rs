@@ -79,14 +79,14 @@ impl MaterialRecord {
 
 impl TextureSlot {
     fn new(reference: Option<&TextureRef>, srgb: bool, model: &Model, textures: &mut TextureSet) -> Self {
-        let Some(reference) = reference else {
+        let used = reference.and_then(|r| Some((r, model.textures[r.texture], model.textures[r.texture].image?)));
+        let Some((reference, texture, image)) = used else {
             return Self { texture: NO_TEXTURE, uv_set: 0, offset: [0.0; 2], matrix: [1.0, 0.0, 0.0, 1.0] };
         };
-        let texture = model.textures[reference.texture];
         let (sin, cos) = reference.rotation.sin_cos();
         let [sx, sy] = reference.scale;
         Self {
-            texture: textures.add(&model.images[texture.image], srgb, texture.sampler),
+            texture: textures.add(&model.images[image], srgb, texture.sampler),
             uv_set: reference.uv_set as u32,
             offset: reference.offset,
             matrix: [cos * sx, sin * sx, -sin * sy, cos * sy],

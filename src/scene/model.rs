@@ -51,6 +51,8 @@ pub struct Node {
     pub light: Option<usize>,
     /// In the chosen scene.
     pub drawn: bool,
+    /// The file hides it or an ancestor of it (`KHR_node_visibility`): only a `show` that names it brings it in.
+    pub hidden: bool,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -167,8 +169,8 @@ pub struct TextureRef {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Texture {
-    /// Into [`Model::images`].
-    pub image: usize,
+    /// Into [`Model::images`]; `None` where the file gives none, or none that could be read: then materials are without.
+    pub image: Option<usize>,
     pub sampler: Sampler,
 }
 
@@ -295,11 +297,23 @@ impl Aabb {
     }
 }
 
+impl Node {
+    /// Whether its model shows it unasked.
+    pub fn is_shown(&self) -> bool {
+        self.drawn && !self.hidden
+    }
+}
+
 impl Model {
+    /// Its warnings, each with the file that it is about.
+    pub fn named_warnings(&self) -> impl Iterator<Item = String> {
+        self.warnings.iter().map(|warning| format!("{}: {warning}", self.name))
+    }
+
     /// Images that texture slots of materials use, ascending. The others are one white pixel each.
     pub fn used_images(&self) -> Vec<usize> {
         let references = self.materials.iter().flat_map(Material::textures);
-        let mut images: Vec<usize> = references.map(|(_, r)| self.textures[r.texture].image).collect();
+        let mut images: Vec<usize> = references.filter_map(|(_, r)| self.textures[r.texture].image).collect();
         images.sort_unstable();
         images.dedup();
         images

@@ -3,17 +3,31 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
-use super::{CoincidentCache, MaterialRecord, Model, TextureSet, lens_meshes};
+use super::{Budget, CoincidentCache, MaterialRecord, Model, OpenOptions, TextureSet, lens_meshes};
 use crate::custom::Custom;
 use crate::lens::LensMeshes;
 use crate::spec::{At, Filter, Quantity, Spec, suggest};
 use crate::{InputError, color_map};
 
+/// Which scene something belongs to; every [`Scene`] that is made gets another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SceneId(u64);
+
+impl Default for SceneId {
+    fn default() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
 /// The models of a spec with what they share: materials and textures in one table each.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
+    /// Tells it from other scenes, so that no plan is drawn over a scene that it was not made for. A clone is the same scene.
+    pub id: SceneId,
     /// The scene file, then the alternates in the order of the spec.
     pub models: Vec<Model>,
     /// Names of the alternates; number i is `models[i + 1]`.
@@ -37,20 +51,31 @@ pub struct Scene {
     pub has_edges: bool,
     /// The solids of `mesh` shapes.
     pub lens_meshes: LensMeshes,
+    /// Of memory: what is taken, and what there may be.
+    pub budget: Budget,
+    /// What the models of `mesh` shapes left out or repaired; of [`Scene::models`] each has its own.
+    pub lens_warnings: Vec<String>,
 }
 
 impl Scene {
     /// Reads the models and images that a spec names. The first that fails is the error, with the line that names it.
     pub fn open(spec: &Spec) -> Result<Self, InputError> {
+        Self::open_with(spec, &OpenOptions::default())
+    }
+
+    /// The same with other limits.
+    pub fn open_with(spec: &Spec, options: &OpenOptions) -> Result<Self, InputError> {
+        let mut budget = Budget::new(options.memory_limit);
         let choice = spec.scene.scene.as_ref();
-        let load = |path: &Path, choice, span: &std::ops::Range<usize>| {
-            Model::load(path, choice).map_err(|e| e.or_at(&spec.source, span.clone()))
+        let mut load = |path: &Path, choice, span: &std::ops::Range<usize>| {
+            Model::load_within(path, choice, options.allow_outside, &mut budget)
+                .map_err(|e| e.or_at(&spec.source, span.clone()))
         };
         let file = &spec.scene.file;
         let first = load(&file.value, choice.map(|c| &c.value), &file.span);
         let mut models = vec![first.map_err(|error| match choice {
             // Where the file opens without the choice, the choice is what is wrong.
-            Some(choice) if Model::load(&file.value, None).is_ok() => {
+            Some(choice) if Model::load_with(&file.value, None, options).is_ok() => {
                 InputError { labels: vec![(choice.span.clone(), "here".into())], ..error }
             }
             _ => error,
@@ -59,13 +84,17 @@ impl Scene {
             models.push(load(&path.value, None, &path.span)?);
         }
         let mut scene = Self::new(models, spec.scene.alternates.iter().map(|(name, _)| name.clone()).collect());
+        scene.budget = budget;
         scene.prepare_filters(spec)?;
         let alternates = spec.scene.alternates.iter().map(|(_, path)| path.value.as_path());
         let mut known: BTreeMap<&Path, &Model> = alternates.zip(&scene.models[1..]).collect();
         if choice.is_none() {
             known.insert(&file.value, &scene.models[0]);
         }
-        scene.lens_meshes = lens_meshes::open(spec, &known)?;
+        let mut budget = scene.budget;
+        let lens_meshes = lens_meshes::open(spec, &known, options.allow_outside, &mut budget)?;
+        (scene.lens_meshes, scene.lens_warnings) = lens_meshes;
+        scene.budget = budget;
         // After the lenses: the time is the scene's, and a mesh lens has the shape its file gives at rest.
         if let Some(time) = &spec.scene.time {
             scene.pose(Some(time.value)).map_err(|e| e.or_at(&spec.source, time.span.clone()))?;
@@ -88,6 +117,7 @@ impl Scene {
     /// Reads and computes what the filters of a spec look up: images, colour maps, numbers at vertices. [`Scene::open`]
     /// does; a scene made of models in memory needs it before a plan whose filters ask for such, which is refused otherwise.
     pub fn prepare_filters(&mut self, spec: &Spec) -> Result<(), InputError> {
+        self.bound_comparisons(spec)?;
         let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
         for filter in filters {
             match &filter.value {
@@ -111,6 +141,11 @@ impl Scene {
             self.models.iter_mut().for_each(Model::add_across);
         }
         Ok(())
+    }
+
+    /// Fails where a spec's patterns are too many for the names of the models.
+    pub(crate) fn bound_comparisons(&self, spec: &Spec) -> Result<(), InputError> {
+        super::names::bound_comparisons(spec, &self.models)
     }
 
     fn add_color_map(&mut self, name: &str) {
@@ -166,7 +201,7 @@ impl Scene {
 
     fn add_filter_texture(&mut self, path: &Path) -> Result<(), InputError> {
         if !self.filter_textures.contains_key(path) {
-            let image = super::Image::load(path)?;
+            let image = super::Image::load(path, &mut self.budget)?;
             let texture = self.textures.add(&image, true, super::Sampler::default());
             self.filter_textures.insert(path.to_path_buf(), texture);
         }

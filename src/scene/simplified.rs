@@ -6,7 +6,7 @@ use meshopt::{SimplifyOptions, simplify_decoder, simplify_scale_decoder};
 use rayon::prelude::*;
 
 use super::vertex_values::places;
-use super::{Across, Model, Primitive, Scene, Subject};
+use super::{Across, Model, Primitive, Scene, Selections, Subject};
 use crate::spec::{At, Filter, LensSpec, Spec, lod};
 
 /// A primitive with fewer triangles.
@@ -97,22 +97,8 @@ impl Scene {
     /// Makes the versions that lenses and rules with `lod` may show; those that are there already stay.
     pub(super) fn simplify(&mut self, spec: &Spec) {
         let ratios: Vec<_> = lods(spec).collect();
-        let wanted = |model: &Model| {
-            let drawn = (0..model.nodes.len()).filter(|node| model.nodes[*node].drawn);
-            let with_mesh = drawn.filter_map(|node| Some((node, model.nodes[node].mesh?)));
-            let mut wanted: BTreeSet<(usize, usize, u32)> = BTreeSet::new();
-            for (node, mesh) in with_mesh {
-                for (number, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
-                    let subject = Subject { model, node, material: &model.materials[primitive.material].name };
-                    let own = ratios.iter().filter(|(_, scope)| scope.is_none_or(|lens| subject.is_in_scope_of(lens)));
-                    let own = own.filter(|(ratio, _)| primitive.version(*ratio).is_none());
-                    wanted.extend(own.map(|(ratio, _)| (mesh, number, ratio.to_bits())));
-                }
-            }
-            wanted
-        };
         for model in &mut self.models {
-            let wanted: Vec<_> = wanted(model).into_iter().collect();
+            let wanted: Vec<_> = wanted(model, &ratios).into_iter().collect();
             let make = |(mesh, number, ratio): &(usize, usize, u32)| {
                 Simplified::new(&model.meshes[*mesh].primitives[*number], f32::from_bits(*ratio))
             };
@@ -122,6 +108,23 @@ impl Scene {
             }
         }
     }
+}
+
+/// The mesh, the primitive and the bits of the ratio of each version that is missing.
+fn wanted(model: &Model, ratios: &[(f32, Option<&LensSpec>)]) -> BTreeSet<(usize, usize, u32)> {
+    let known = Selections::default();
+    let drawn = (0..model.nodes.len()).filter(|node| model.nodes[*node].drawn);
+    let with_mesh = drawn.filter_map(|node| Some((node, model.nodes[node].mesh?)));
+    let mut wanted = BTreeSet::new();
+    for (node, mesh) in with_mesh {
+        for (number, primitive) in model.meshes[mesh].primitives.iter().enumerate() {
+            let subject = Subject { model, node, material: primitive.material, known: &known };
+            let own = ratios.iter().filter(|(_, scope)| scope.is_none_or(|lens| subject.is_in_scope_of(lens)));
+            let own = own.filter(|(ratio, _)| primitive.version(*ratio).is_none());
+            wanted.extend(own.map(|(ratio, _)| (mesh, number, ratio.to_bits())));
+        }
+    }
+    wanted
 }
 
 /// The ratio of each `lod` below 1, and the lens that limits it: a rule limits none, nor does a lens limit what it shows.
@@ -186,7 +189,7 @@ mod tests {
     fn a_closed_mesh_stays_closed() {
         let Simplified { triangles, .. } = Simplified::new(&ball(false), 0.05);
         let simplified = Primitive { triangles, ..ball(false) };
-        let closure = Closure::new(&Mesh { name: String::new(), primitives: vec![simplified] });
+        let closure = Closure::new(&Mesh { name: String::new(), primitives: vec![simplified] }, 1.0);
         assert!(closure.is_closed(), "{closure:?}");
     }
 

@@ -158,6 +158,7 @@ mod tests {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         };
         let mut model = Model { meshes: vec![mesh], nodes: vec![node(2.0)], ..Model::default() };
         assert_eq!(fitted_range(std::slice::from_ref(&model), CURVATURE), None);

@@ -9,11 +9,8 @@ mod shape;
 mod types;
 
 pub use color::Color;
-pub use pattern::Pattern;
+pub use pattern::{Names, Pattern, PatternSet};
 pub use range::NumberRange;
-pub(crate) use read::suggest;
+pub(crate) use read::{keys, suggest};
 pub use shape::{Convex, MeshShape, Rotation, Shape};
 pub use types::*;
-
-#[cfg(test)]
-pub(crate) use read::keys;

@@ -59,6 +59,17 @@ pub enum Shape {
     Hull {
         points: Vec<[f64; 3]>,
     },
+    /// All that `normal` points away from, without an end.
+    HalfSpace {
+        point: [f64; 3],
+        normal: [f64; 3],
+    },
+    /// Between two planes across `normal`; `point` lies midway.
+    Slab {
+        point: [f64; 3],
+        normal: [f64; 3],
+        thickness: f64,
+    },
     Flat {
         corners: Vec<[f64; 3]>,
         depth: Option<f64>,
@@ -69,6 +80,19 @@ pub enum Shape {
     Intersection(Vec<At<Shape>>),
     /// The first less the others.
     Difference(Vec<At<Shape>>),
+}
+
+impl Shape {
+    /// Whether it goes on for ever as a half-space does: such a lens has no glass unless that is asked for.
+    pub fn is_half_space(&self) -> bool {
+        match self {
+            Shape::HalfSpace { .. } => true,
+            Shape::Union(list) => list.iter().any(|part| part.value.is_half_space()),
+            Shape::Intersection(list) => list.iter().all(|part| part.value.is_half_space()),
+            Shape::Difference(list) => list.first().is_some_and(|part| part.value.is_half_space()),
+            _ => false,
+        }
+    }
 }
 
 impl At<Shape> {

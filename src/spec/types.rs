@@ -16,13 +16,20 @@ pub struct Source {
     /// How messages name the file.
     pub name: String,
     pub text: Arc<str>,
+    /// Where its lines end.
+    ends: Arc<[usize]>,
 }
 
 impl Source {
+    pub fn new(name: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
+        let text = text.into();
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+        Self { name: name.into(), text, ends }
+    }
+
     /// 1-based line of a byte offset.
     pub fn line(&self, offset: usize) -> usize {
-        let end = offset.min(self.text.len());
-        1 + self.text.as_bytes()[..end].iter().filter(|b| **b == b'\n').count()
+        1 + self.ends.partition_point(|end| *end < offset)
     }
 }
 
@@ -181,7 +188,7 @@ pub enum ToneMapping {
 }
 
 /// Name patterns for nodes and materials.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matches {
     pub nodes: Vec<At<Pattern>>,
     pub materials: Vec<At<Pattern>>,
@@ -411,8 +418,13 @@ pub enum Cap {
 /// What `show` puts in place of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShowWhat {
-    /// A name under `[scene.alternates]`.
-    Alternate(At<String>),
+    Alternate {
+        /// Under `[scene.alternates]`.
+        name: At<String>,
+        /// What of it; empty: all.
+        only: Matches,
+    },
+    /// Of the scene.
     Nodes(Vec<At<Pattern>>),
 }
 

@@ -2,15 +2,17 @@
 
 use std::f64::consts::PI;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
+use lenspeel::frame::Frame;
 use lenspeel::pixel::cap_maker;
+use lenspeel::scene::Primitive;
 
-use crate::solids::{Part, ball, cuboid, halves, planned, second, turned, with};
-use crate::{Draw, cap_pixels, has_area, maps};
+use crate::solids::{LENS, Part, ball, cuboid, halves, planned, second, sheet, turned, with, with_seam};
+use crate::{Draw, SHARE, cap_pixels, has_area, maps};
 
 pub type Check = fn(Draw) -> Result<(), String>;
 
-pub const ALL: [(&str, Check); 16] = [
+pub const ALL: [(&str, Check); 25] = [
     ("a-ball-cut-by-a-plane", plane),
     ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
     ("a-ball-cut-by-a-sphere", sphere),
@@ -27,6 +29,15 @@ pub const ALL: [(&str, Check); 16] = [
     ("the-inner-surface-of-a-node", inner_surface),
     ("an-inner-surface-that-is-not-cut", inner_surface_not_cut),
     ("surfaces-that-are-closed-together", closed_together),
+    ("a-seam-as-good-as-sines-are", seam),
+    ("a-sheet-beside-a-solid", sheet_beside),
+    ("triangles-turned-round", some_turned),
+    ("a-hole-far-from-the-cut", hole_far_off),
+    ("solids-of-one-mesh-that-overlap", overlapping),
+    ("a-mesh-lens-of-solids-that-overlap", mesh_lens),
+    ("lenses-below-the-eraser-leave-its-cap", lower_lens),
+    ("own-colours-of-the-nearest-surface", own_colors),
+    ("edges-between-caps-of-nodes", edges_between),
 ];
 
 /// Pixels of a picture's side.
@@ -230,4 +241,150 @@ fn closed_together(draw: Draw) -> Result<(), String> {
     let parts = vec![("parts", vec![beside, top, rest])];
     let frame = draw(&planned(parts, SIDE, ABOVE, &above(0.3, CAP_SECOND)))?;
     has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// The ends of the meridians that close it differ in the last digits.
+fn seam(draw: Draw) -> Result<(), String> {
+    let frame = draw(&planned(vec![("ball", vec![with_seam(ball(1.0, 192))])], SIDE, ABOVE, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// A sheet goes through the solid, another stands on it, all of one mesh: neither has a cap.
+fn sheet_beside(draw: Draw) -> Result<(), String> {
+    let through = sheet([[-1.4, 0.31, -1.0], [1.4, 0.31, -1.0], [1.4, 0.29, 1.0], [-1.4, 0.29, 1.0]]);
+    let bent = with(
+        sheet([[0.9, -1.2, -1.0], [1.3, -1.2, -1.0], [1.3, -1.2, 1.0], [0.9, -1.2, 1.0]]),
+        sheet([[1.3, -1.2, -1.0], [1.3, -0.9, -1.0], [1.3, -0.9, 1.0], [1.3, -1.2, 1.0]]),
+    );
+    let solid = cuboid(Vec3::ZERO, Vec3::new(0.7, 0.8, 0.6));
+    let parts = vec![("both", vec![with(solid, bent), through])];
+    let frame = draw(&planned(parts, SIDE, &format!("{ABOVE}\nup = [0.31, 1, 0]"), &above(0.2, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(1.4 * 1.6))
+}
+
+fn some_turned(draw: Draw) -> Result<(), String> {
+    let mut ball = ball(1.0, 192);
+    ball.triangles.iter_mut().step_by(11).for_each(|triangle| triangle.swap(0, 1));
+    let frame = draw(&planned(vec![("ball", vec![ball])], SIDE, ABOVE, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))
+}
+
+/// Rays leave through a hole as wide as a seventh of the ball, and through the bottom of a box that has none.
+fn hole_far_off(draw: Draw) -> Result<(), String> {
+    let mut torn = ball(1.0, 192);
+    let positions = torn.positions.clone();
+    torn.triangles.retain(|triangle| triangle.iter().any(|corner| positions[*corner as usize].z > -0.98));
+    let frame = draw(&planned(vec![("ball", vec![torn])], SIDE, ABOVE, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09)))?;
+    let mut without_bottom = cuboid(Vec3::ZERO, Vec3::splat(0.8));
+    let positions = without_bottom.positions.clone();
+    without_bottom.triangles.retain(|triangle| triangle.iter().any(|corner| positions[*corner as usize].z > 0.0));
+    let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+    let frame = draw(&planned(vec![("box", vec![without_bottom])], SIDE, &camera, &above(0.3, CAP)))?;
+    has_area(maps(&frame)?, 0, pixels(1.6 * 1.6))
+}
+
+/// Whichever way each faces.
+fn overlapping(draw: Draw) -> Result<(), String> {
+    let bars = |second| with(cuboid(Vec3::ZERO, Vec3::new(1.2, 0.5, 0.6)), if second { turned(bar()) } else { bar() });
+    for second in [false, true] {
+        let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+        let frame = draw(&planned(vec![("cross", vec![bars(second)])], SIDE, &camera, &above(0.2, CAP)))?;
+        has_area(maps(&frame)?, 0, pixels(2.4 + 2.16 - 0.9))?;
+    }
+    Ok(())
+}
+
+/// A mesh lens takes the same solids as caps do: two bars that overlap, one of them inside out, and a hollow box.
+fn mesh_lens(draw: Draw) -> Result<(), String> {
+    let bars = with(cuboid(Vec3::ZERO, Vec3::new(1.2, 0.5, 0.6)), turned(bar()));
+    let at = |half: f32| cuboid(Vec3::new(0.95, 0.95, 0.0), Vec3::splat(half));
+    let solids = with(bars, with(at(0.3), turned(at(0.2))));
+    let parts = vec![("plate", vec![cuboid(Vec3::ZERO, Vec3::new(1.45, 1.45, 0.05))]), (LENS, vec![solids])];
+    let shape = format!("mesh = {{ file = \"made-in-code.glb\", node = \"{LENS}\", convex = \"decompose\" }}");
+    let camera = format!("{ABOVE}\nup = [0.31, 1, 0]");
+    let frame = draw(&planned(parts, SIDE, &camera, &lens("solids", &shape, "\"invert\"")))?;
+    let aovs = maps(&frame)?;
+    let is_inside = |at: &usize| aovs.region(*at).is_some_and(|region| !region.set.is_empty());
+    let (found, expected) = ((0..aovs.nodes.len()).filter(is_inside).count() as f64, pixels(3.66 + 0.36 - 0.16));
+    if (found - expected).abs() <= SHARE * expected { Ok(()) } else { Err(format!("{found}, not {expected} pixels")) }
+}
+
+fn bar() -> Primitive {
+    cuboid(Vec3::new(0.0, 0.0, 0.1), Vec3::new(0.45, 1.2, 0.55))
+}
+
+/// What makes the rest invisible from the cut on, below the eraser, leaves the cap alone; above it does not.
+fn lower_lens(draw: Draw) -> Result<(), String> {
+    let clear = lens("clear", "box = { min = [-3, -3, -3], max = [3, 3, 0.3] }", "{ opacity = { value = 0 } }");
+    let [below, above] = [clear.clone() + &above(0.3, CAP), above(0.3, CAP) + &clear].map(|lenses| {
+        let frame = draw(&planned(one_ball(), SIDE, ABOVE, &lenses))?;
+        Ok::<_, String>((has_area(maps(&frame)?, 0, pixels(PI * (1.0 - 0.09))), cap_pixels(maps(&frame)?, 0)))
+    });
+    below?.0?;
+    if above?.1 == 0 { Ok(()) } else { Err("a lens above the eraser must act on its cap".into()) }
+}
+
+/// The colour of a picture at a place seen from above.
+fn color_at(frame: &Frame, x: f64, y: f64) -> [u8; 4] {
+    let pixel = |along: f64| ((along / HEIGHT + 0.5) * f64::from(SIDE)) as usize;
+    frame.pixels[pixel(-y) * SIDE as usize + pixel(x)]
+}
+
+/// A lens over all that shows base colours as they are.
+fn unlit() -> String {
+    lens("unlit", "box = { min = [-3, -3, -3], max = [3, 3, 3] }", "\"unlit\"")
+}
+
+/// A box that is red on its left and blue on its right, and beside it one of two materials.
+fn own_colors(draw: Draw) -> Result<(), String> {
+    let mut colored = cuboid(Vec3::new(-0.5, 0.0, 0.0), Vec3::new(0.8, 1.0, 0.9));
+    let color = |p: &Vec3| if p.x < -0.5 { Vec4::new(1.0, 0.0, 0.0, 1.0) } else { Vec4::new(0.0, 0.0, 1.0, 1.0) };
+    colored.colors = Some(colored.positions.iter().map(color).collect());
+    let whole = cuboid(Vec3::new(0.9, 0.0, 0.0), Vec3::new(0.4, 1.0, 0.9));
+    let positions = whole.positions.clone();
+    let [mut left, mut right] = [whole.clone(), second(whole)];
+    let is_left = |triangle: &[u32; 3]| triangle.iter().all(|corner| positions[*corner as usize].x < 0.6);
+    left.triangles.retain(is_left);
+    right.triangles.retain(|triangle| !is_left(triangle));
+    let parts = vec![("colored", vec![colored]), ("two", vec![left, right])];
+    let own = "{ erase = { cap = \"own\" } }";
+    let mut opened = planned(parts, SIDE, ABOVE, &(above(0.2, own) + &unlit()));
+    opened.scene.materials[1].base_color = [0.0, 1.0, 0.0, 1.0];
+    let frame = draw(&opened)?;
+    for (x, y, expected) in [
+        (-1.2, 0.1, [255, 0, 0]),
+        (0.2, -0.1, [0, 0, 255]),
+        (-0.5, 0.9, [188, 0, 188]),
+        (0.6, 0.1, [255, 255, 255]),
+        (1.2, 0.1, [0, 255, 0]),
+    ] {
+        let found = color_at(&frame, x, y);
+        if (0..3).any(|i| found[i].abs_diff(expected[i]) > 2) {
+            return Err(format!("at ({x}, {y}) the cap is {found:?}, not {expected:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// Parts that touch, cut by one plane: a line between them, and none within one.
+fn edges_between(draw: Draw) -> Result<(), String> {
+    let part = |x: f32| cuboid(Vec3::new(x, 0.0, 0.0), Vec3::new(0.5, 1.0, 0.9));
+    let edges = lens(
+        "lines",
+        "box = { min = [-3, -3, -3], max = [3, 3, 3] }",
+        "\"unlit\", { edges = { color = \"black\", width = 3 } }",
+    );
+    let cut = above(0.2, "{ erase = { cap = \"white\" } }");
+    for (parts, is_line) in [
+        (vec![("left", vec![part(-0.5)]), ("right", vec![part(0.5)])], true),
+        (vec![("both", vec![with(part(-0.5), part(0.5))])], false),
+    ] {
+        let frame = draw(&planned(parts, SIDE, ABOVE, &(cut.clone() + &edges)))?;
+        let color = color_at(&frame, 0.0, 0.2);
+        if (color[0] < 60) != is_line || color_at(&frame, 0.3, 0.2)[0] < 250 {
+            return Err(format!("{color:?} at the border, where a line is {is_line}"));
+        }
+    }
+    Ok(())
 }

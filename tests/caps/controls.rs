@@ -5,7 +5,7 @@ use libtest_mimic::{Failed, Trial};
 
 use crate::cases::{ABOVE, CAP, SIDE, above, pixels};
 use crate::open::Opened;
-use crate::solids::{ball, cuboid, planned, with};
+use crate::solids::{ball, cuboid, planned, sheet, with};
 use crate::{cap_pixels, has_area, maps, on_cpu};
 
 pub fn trials() -> Vec<Trial> {
@@ -14,6 +14,7 @@ pub fn trials() -> Vec<Trial> {
     };
     vec![
         trial("an-open-mesh-is-named-and-left-open", open_mesh),
+        trial("open-and-turned-and-touching-edges-are-told-apart", told_apart),
         trial("an-open-mesh-that-the-lens-is-not-there-for-is-not-named", open_mesh_out_of_scope),
         trial("an-eraser-without-a-cap-closes-nothing", without_cap),
         trial("what-takes-whole-objects-closes-nothing", by_object),
@@ -28,15 +29,45 @@ fn caps(opened: &Opened) -> Result<usize, String> {
     Ok(cap_pixels(maps(&frame)?, 0))
 }
 
+/// Half a ball, and a bare sheet.
 fn open_mesh() -> Result<(), String> {
-    let mut torn = ball(1.0, 64);
-    // One at the equator: those at the poles have no area.
-    torn.triangles.remove(64 * 31 + 32);
-    let opened = planned(vec![("ball", vec![torn])], SIDE, ABOVE, &above(0.3, CAP));
-    let warning = "`cap` of lens `cut` leaves open what is not closed: ball (3 of ";
+    let mut bowl = ball(1.0, 64);
+    let positions = bowl.positions.clone();
+    bowl.triangles.retain(|triangle| triangle.iter().all(|corner| positions[*corner as usize].x < 0.01));
+    let opened = planned(vec![("bowl", vec![bowl])], SIDE, ABOVE, &above(0.3, CAP));
+    let warning = "`cap` of lens `cut` leaves open what is not closed: bowl (64 of ";
     match (&opened.plan.warnings[..], caps(&opened)?) {
         ([only], 0) if only.starts_with("spec.toml:13: ") && only.contains(warning) => Ok(()),
         (warnings, count) => Err(format!("{count} pixels, and {warnings:?}")),
+    }
+}
+
+/// Each kind of edge is told with its count.
+fn told_apart() -> Result<(), String> {
+    let mut torn = ball(1.0, 64);
+    // One at the equator: those at the poles have no area.
+    torn.triangles.remove(64 * 31 + 32);
+    let mut some_turned = ball(0.3, 64);
+    some_turned.triangles[64 * 31 + 32].swap(0, 1);
+    let (a, b) = (cuboid(Vec3::ZERO, Vec3::splat(0.2)), cuboid(Vec3::new(0.4, 0.4, 0.0), Vec3::splat(0.2)));
+    let flap = sheet([[0.2, 0.2, -0.2], [0.2, 0.2, 0.2], [-0.2, 0.6, 0.2], [-0.2, 0.6, -0.2]]);
+    let parts = vec![
+        ("torn", vec![torn]),
+        ("turned", vec![some_turned]),
+        ("touching", vec![with(a.clone(), b.clone())]),
+        ("flap", vec![with(with(a, b), flap)]),
+    ];
+    let opened = planned(parts, SIDE, ABOVE, &above(0.1, CAP));
+    let expected = [
+        "closes some pieces and leaves open those that are not closed: flap (3 of 38 edges are open, 1 self-touching)",
+        "takes for whole what has small holes: torn (3 of 5888 edges are open)",
+        "takes for one side what has triangles turned against each other: turned (0 of 5888 edges are open, 3 turned)",
+    ];
+    let warnings = &opened.plan.warnings;
+    let is_told = |text: &&str| warnings.iter().any(|warning| warning.contains(*text));
+    match expected.iter().find(|text| !is_told(text)) {
+        None if warnings.len() == 3 => Ok(()),
+        _ => Err(format!("{warnings:?}")),
     }
 }
 

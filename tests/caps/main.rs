@@ -45,7 +45,9 @@ fn trial(name: &str, backend: &str, check: cases::Check, draw: Draw) -> Trial {
 }
 
 fn on_cpu(opened: &Opened) -> Result<Frame, String> {
-    Ok(cpu::Renderer::new(&opened.scene, &opened.plan).render(true, &|_| ()))
+    Ok(cpu::Renderer::new(&opened.scene, &opened.plan)
+        .and_then(|cpu| cpu.render(true, &|_| ()))
+        .expect("the CPU draws it"))
 }
 
 fn maps(frame: &Frame) -> Result<&Aovs, String> {

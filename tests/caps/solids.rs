@@ -1,9 +1,10 @@
 //! Solids made in code: balls and boxes, whole, turned inside out, or with a hole.
 
 use glam::{DAffine3, DVec3, Vec3};
+use lenspeel::lens::MeshForm;
 use lenspeel::plan::Plan;
 use lenspeel::scene::{Material, Mesh, Model, Node, Primitive, Scene, Transform};
-use lenspeel::spec::Spec;
+use lenspeel::spec::{Shape, Spec};
 
 use crate::open::Opened;
 
@@ -12,6 +13,9 @@ const MATERIALS: [&str; 2] = ["first", "second"];
 
 /// A node with the primitives of its mesh.
 pub type Part = (&'static str, Vec<Primitive>);
+
+/// The node that lenses may take for their shape; it is not drawn.
+pub const LENS: &str = "lens";
 
 /// A scene of such nodes, and a plan over it of a square picture with a camera and lenses (TOML).
 pub fn planned(parts: Vec<Part>, side: u32, camera: &str, lenses: &str) -> Opened {
@@ -31,11 +35,20 @@ pub fn planned(parts: Vec<Part>, side: u32, camera: &str, lenses: &str) -> Opene
             mesh: Some(model.meshes.len()),
             camera: None,
             light: None,
-            drawn: true,
+            drawn: name != LENS,
+            hidden: false,
         });
         model.meshes.push(Mesh { name: name.into(), primitives });
     }
-    let scene = Scene::new(vec![model], vec![]);
+    let mut scene = Scene::new(vec![model], vec![]);
+    for shape in spec.lenses.iter().flat_map(|lens| lens.shape.parts()) {
+        if let Shape::Mesh(mesh) = &shape.value {
+            let model = &scene.models[0];
+            let node = model.nodes.iter().position(|node| node.name == LENS);
+            let form = MeshForm::new(model, node, mesh.convex).expect("the test's mesh is closed");
+            scene.lens_meshes.insert(mesh, form);
+        }
+    }
     let plan = Plan::new(&spec, &scene).expect("the test's plan is right");
     Opened { scene, plan }
 }
@@ -71,6 +84,21 @@ pub fn cuboid(center: Vec3, half: Vec3) -> Primitive {
         }
     }
     cuboid
+}
+
+/// A flat sheet of four corners.
+pub fn sheet(corners: [[f32; 3]; 4]) -> Primitive {
+    let [a, b, c, d] = corners.map(Vec3::from_array);
+    let mut sheet = Primitive::default();
+    [[a, b, c], [a, c, d]].iter().for_each(|triangle| push(&mut sheet, triangle));
+    sheet
+}
+
+/// The same, with corners of each triangle that differ in their last digits from its neighbours'.
+pub fn with_seam(mut primitive: Primitive) -> Primitive {
+    let shift = |(i, p): (usize, &mut Vec3)| *p += Vec3::splat((i % 5) as f32 * 1e-7);
+    primitive.positions.iter_mut().enumerate().for_each(shift);
+    primitive
 }
 
 /// Turned inside out: the wall of a hole.

@@ -160,6 +160,12 @@ pub enum Shape {
     /// Normals of any length.
     Polytope(Vec<[f64; 4]>),
     Hull(Vec<DVec3>),
+    /// All that the normal points away from; with a thickness, what lies within half of it on both sides of the plane.
+    Plane {
+        point: DVec3,
+        normal: DVec3,
+        thickness: Option<f64>,
+    },
     Flat {
         corners: Vec<DVec3>,
         depth: Option<f64>,

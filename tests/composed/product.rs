@@ -61,7 +61,9 @@ impl Picture {
         let text = std::fs::read_to_string(spec).map_err(|error| error.to_string())?;
         let (_, opened) = open(spec, &text, |_| ())?;
         let frame = match party {
-            Party::Cpu => cpu::Renderer::new(&opened.scene, &opened.plan).render(true, &|_| ()),
+            Party::Cpu => cpu::Renderer::new(&opened.scene, &opened.plan)
+                .and_then(|cpu| cpu.render(true, &|_| ()))
+                .expect("the CPU draws it"),
             #[cfg(feature = "gpu")]
             Party::Gpu(engine) => crate::gpu::render(&opened, engine)?,
         };

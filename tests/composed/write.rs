@@ -129,6 +129,13 @@ fn shape(case: &Case, s: &Shape) -> String {
             format!("polytope = {{ planes = {} }}", list(planes))
         }
         Shape::Hull(points) => format!("hull = {{ points = {} }}", list(points.iter().map(|p| vector(*p)))),
+        Shape::Plane { point, normal, thickness } => {
+            let (point, normal) = (vector(*point), vector(*normal));
+            match thickness {
+                None => format!("halfspace = {{ point = {point}, normal = {normal} }}"),
+                Some(t) => format!("slab = {{ point = {point}, normal = {normal}, thickness = {t} }}"),
+            }
+        }
         Shape::Flat { corners, depth } => {
             let depth = depth.map_or(String::new(), |depth| format!(", depth = {depth}"));
             format!("flat = {{ corners = {}{depth} }}", list(corners.iter().map(|p| vector(*p))))

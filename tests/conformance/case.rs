@@ -33,7 +33,9 @@ fn open_case(path: &Path) -> Result<Opened, String> {
 }
 
 pub fn on_cpu(opened: &Opened) -> Result<Frame, String> {
-    Ok(cpu::Renderer::new(&opened.scene, &opened.plan).render(true, &|_| ()))
+    Ok(cpu::Renderer::new(&opened.scene, &opened.plan)
+        .and_then(|cpu| cpu.render(true, &|_| ()))
+        .expect("the CPU draws it"))
 }
 
 /// Renders a case and compares everything that is expected of it.

@@ -22,7 +22,7 @@ pub struct Filters {
 impl Filters {
     /// Reads named files.
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, String> {
-        let spec = Source { name: "spec.toml".into(), text: "".into() };
+        let spec = Source::new("spec.toml", "");
         let (mut read, mut words) = (Vec::new(), Vec::new());
         for (name, text) in files {
             let file = Custom::parse(text, name).map_err(|error| format!("{error}\n{text}"))?;

@@ -1,7 +1,8 @@
 //! Damaged bytes end in an error or a model, never in a panic.
 
+use lenspeel::cli::InfoChoice;
 use lenspeel::scene::Model;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::builder::*;
 
@@ -66,7 +67,7 @@ fn keeps_promises(model: &Model) {
     if moved.pose(Some(0.5)).is_ok() {
         assert!(moved.nodes.iter().all(|node| node.world_from_local.is_finite()));
     }
-    let _ = lenspeel::cli::info_text(model);
+    let _ = lenspeel::cli::info_text(model, &InfoChoice::default());
     let _ = lenspeel::cli::init_text(model, "model.glb");
 }
 
@@ -124,4 +125,52 @@ fn numbers_in_the_json_replaced_by_extremes_never_panic() {
         }
     }
     assert!(tried > 300, "only {tried}");
+}
+
+/// Every place in some JSON, as a pointer.
+fn places(value: &Value, here: &str, found: &mut Vec<String>) {
+    found.push(here.to_string());
+    match value {
+        Value::Array(items) => items.iter().enumerate().for_each(|(i, v)| places(v, &format!("{here}/{i}"), found)),
+        Value::Object(entries) => entries.iter().for_each(|(key, v)| places(v, &format!("{here}/{key}"), found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn values_in_the_json_replaced_by_other_kinds_never_panic() {
+    let whole = rich();
+    let length = u32::from_le_bytes(whole[12..16].try_into().expect("four bytes")) as usize;
+    let mut json: Value = serde_json::from_slice(&whole[20..20 + length]).expect("JSON");
+    json["buffers"][0]["uri"] = json!(data_uri(&whole[20 + length + 8..]));
+    json["extensionsUsed"] = json!(["KHR_lights_punctual", "EXT_mesh_gpu_instancing"]);
+    json["nodes"][0]["extensions"] = json!({
+        "KHR_node_visibility": {"visible": true}, "EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}});
+    json["meshes"][0]["weights"] = json!([0.5]);
+    json["nodes"][0]["skin"] = json!(0);
+    json["skins"] = json!([{"joints": [0]}]);
+    let hostile = [
+        json!(null),
+        json!(true),
+        json!(-1),
+        json!(1e308),
+        json!(u64::MAX),
+        json!(4_000_000_000u64),
+        json!("\u{1b}[2J../../x"),
+        json!([]),
+        json!({}),
+        json!([[[[]]], null, {"a": {}}]),
+        json!({"extensions": {"KHR_texture_transform": {"offset": "x"}, "KHR_node_visibility": 7}}),
+    ];
+    let mut all = Vec::new();
+    places(&json, "", &mut all);
+    let mut loaded = 0;
+    for place in all.iter().filter(|place| !place.is_empty()) {
+        for value in &hostile {
+            let mut changed = json.clone();
+            *changed.pointer_mut(place).expect("a place of it") = value.clone();
+            loaded += usize::from(survives(&serde_json::to_vec(&changed).expect("JSON")));
+        }
+    }
+    assert!(all.len() > 150 && loaded > 100, "{} places, {loaded} loaded", all.len());
 }

@@ -5,7 +5,9 @@ mod damage;
 mod errors;
 #[path = "../support/gltf.rs"]
 mod gltf;
+mod limits;
 mod motion;
 mod shared;
 mod small;
 mod texts;
+mod tolerant;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lenspeel::cli::{info_text, init_text};
+use lenspeel::cli::{InfoChoice, init_text};
 use lenspeel::scene::Model;
 use lenspeel::spec::{Pattern, Spec};
 use serde_json::json;
@@ -37,6 +37,10 @@ fn machine() -> Model {
     doc.json["scenes"][0]["name"] = json!("Assembly");
     doc.push("scenes", json!({"name": "Store", "nodes": [spare]}));
     doc.model()
+}
+
+fn info_text(model: &Model) -> String {
+    lenspeel::cli::info_text(model, &InfoChoice::default())
 }
 
 #[test]

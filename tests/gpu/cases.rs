@@ -52,7 +52,7 @@ const SIZE: [u32; 2] = [120, 90];
 const ENGINES: [Engine; 2] = [Engine::Fused, Engine::Peel];
 
 pub fn on_cpu(scene: &Scene, plan: &Plan) -> Frame {
-    cpu::Renderer::new(scene, plan).render(true, &|_| ())
+    cpu::Renderer::new(scene, plan).and_then(|cpu| cpu.render(true, &|_| ())).expect("the CPU draws it")
 }
 
 /// Both engines against the CPU.

@@ -134,7 +134,7 @@ fn tree(random: &mut Random, depth: u32, parts: usize) -> Tree {
 /// A mesh between -1 and 1 in a pose that makes it a little smaller than that.
 fn placed(mesh: MeshSolid, pose: DAffine3) -> Solid {
     let world_from_local = pose * DAffine3::from_scale(DVec3::splat(0.8));
-    let hull = mesh.vertices.iter().map(|v| world_from_local.transform_point3(*v)).collect();
+    let hull = mesh.tree.vertices.iter().map(|v| world_from_local.transform_point3(*v)).collect();
     Solid::new(Form::Mesh(Arc::new(mesh)), world_from_local, hull, pose.translation, false)
 }
 

@@ -93,7 +93,7 @@ fn compare(device: &Headless, camera: &str, lenses: &str) -> Result<(), String> 
     let (scene, plan) = planned(SIZE, 1, camera, lenses);
     let faces = |lens: &lenspeel::plan::Lens| match &lens.volume.parts[0].form {
         Form::HalfSpaces { planes, .. } => planes.len(),
-        Form::Mesh(mesh) => mesh.triangles.len(),
+        Form::Mesh(mesh) => mesh.tree.triangles.len(),
         _ => 0,
     };
     let mut most: Vec<usize> = plan.lenses.iter().map(faces).collect();

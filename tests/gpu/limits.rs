@@ -41,7 +41,7 @@ pub fn what_a_plan_needs_is_refused_with_numbers(device: &Headless) -> Result<()
     ring.hull.iter_mut().for_each(|p| *p += DVec3::splat(9.0));
     let Form::Mesh(mesh) = &ring.form else { return Err("the ring is no mesh".into()) };
     // Eight words a node, three a triangle or corner.
-    let words = 8 * mesh.nodes.len() + 3 * mesh.triangles.len() + 3 * mesh.vertices.len();
+    let words = 8 * mesh.tree.nodes.len() + 3 * mesh.tree.triangles.len() + 3 * mesh.tree.vertices.len();
     replace(&mut plan, 0, of(ring.clone()));
     refused(device, &scene, &plan, "the plan's programs and meshes of lenses", 4 * words)?;
 

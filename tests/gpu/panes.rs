@@ -44,6 +44,7 @@ fn model() -> Model {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         });
         let primitive = Primitive {
             positions: vec![corner(-8.0, -8.0), corner(8.0, -8.1), corner(8.0, 8.0), corner(-8.0, 8.1)],
@@ -105,7 +106,10 @@ pub fn sixty_four_sheets(device: &Headless) -> Result<(), String> {
         }
         Ok(())
     };
-    check("cpu", &cpu::Renderer::new(&scene, &plan).render(false, &|_| ()).pixels)?;
+    check(
+        "cpu",
+        &cpu::Renderer::new(&scene, &plan).and_then(|cpu| cpu.render(false, &|_| ())).expect("the CPU draws it").pixels,
+    )?;
     for engine in [Engine::Fused, Engine::Peel] {
         let options = RenderOptions { engine, aovs: false };
         let frame = device.render(&scene, &plan, options).map_err(|e| format!("{engine:?}: {e}"))?;

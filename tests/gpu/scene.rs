@@ -56,6 +56,7 @@ fn add(model: &mut Model, name: &str, mut primitive: Primitive, at: DVec3, mater
         camera: None,
         light: None,
         drawn: true,
+        hidden: false,
     });
     model.meshes.push(Mesh { name: name.into(), primitives: vec![primitive] });
 }

@@ -14,3 +14,4 @@ mod random;
 mod rects;
 mod routes;
 mod solid;
+mod unbounded;

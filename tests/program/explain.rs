@@ -55,6 +55,43 @@ fn json_says_who_acts_and_who_is_hidden() {
     assert_eq!(all["order"], json!([{ "below": "a", "above": "c", "because": chain }]));
 }
 
+/// A ball in a box: `open` takes the front of the box away, `pale` is seen through, `keep` is not there for the ball.
+const LOOKS: &str = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n[image]\nsize = [60, 60]\n\
+    [[lens]]\nname = 'pale'\nshape.halfspace = { point = [0, 0, 0], normal = [0, 0, -1] }\n\
+    filters = [{ opacity = { value = 0.5 } }]\nonly = { nodes = ['ball'] }\n\
+    [[lens]]\nname = 'open'\nshape.halfspace = { point = [0, 0, 0], normal = [0, 0, -1] }\n\
+    filters = [{ erase = { nodes = ['box'] } }]\nexcept = { nodes = ['ball'] }\n";
+
+#[test]
+fn what_is_taken_away_and_seen_through_is_counted() {
+    let folder = Folder::new("explain-looks");
+    let model = project("lens-specs/models/ball-in-box.glb");
+    let spec = folder.write("looks.toml", &format!("[scene]\nfile = '{model}'\n{LOOKS}"));
+    let text = call(&["explain", &spec]).good();
+    let line = |name: &str| {
+        let order = text.split(&format!(". {name} (")).nth(1).unwrap_or_else(|| panic!("{text}"));
+        order
+            .split("in view: ")
+            .nth(1)
+            .and_then(|rest| rest.lines().next())
+            .unwrap_or_else(|| panic!("{text}"))
+            .to_owned()
+    };
+    assert!(line("open").starts_with("takes something away in "), "{text}");
+    assert!(line("pale").starts_with("on what is seen through in "), "{text}");
+    assert!(text.contains("pale; seen through in "), "{text}");
+    let json: Value = serde_json::from_str(&call(&["explain", &spec, "--format", "json"]).good()).expect("JSON");
+    let pale = &json["order"][0]["in_view"];
+    assert_eq!((json["order"][0]["lens"].as_str(), pale["removes"]["pixels"].as_u64()), (Some("pale"), Some(0)));
+    let through = pale["seen_through"]["pixels"].as_u64().expect("a number");
+    assert!(through > 50, "{through}");
+    let erased = json["order"][1]["in_view"]["removes"]["pixels"].as_u64().expect("a number");
+    assert!(erased > through, "{erased} of {through}");
+    let pixel = call(&["explain", &spec, "--pixel", "30,30"]).good();
+    assert!(pixel.contains("not in open: its `except` in line 13 names this node or material"), "{pixel}");
+    assert!(pixel.contains("not in pale: its `only` in line 10 names neither this node nor its material"), "{pixel}");
+}
+
 #[test]
 fn graphs_have_every_lens_and_every_edge() {
     let dot = explain(&["--format", "dot"]);

@@ -71,3 +71,34 @@ fn schema_is_a_json_schema_of_the_format() {
         assert!(schema["properties"].get(table).is_some(), "{table}");
     }
 }
+
+#[test]
+fn info_finds_names_and_writes_json() {
+    let model = project("lens-specs/models/ball-in-box.glb");
+    let out = call(&["info", &model, "b?ll"]).good();
+    assert!(out.contains("mesh 1 ball") && !out.contains("materials"), "{out}");
+    let json: serde_json::Value = serde_json::from_str(&call(&["info", &model, "--json"]).good()).expect("JSON");
+    assert_eq!((&json["triangles_shown"], &json["bounds"]["max"][0]), (&972.into(), &1.0.into()));
+    assert!(json["nodes"].as_array().is_some_and(|nodes| nodes.iter().any(|node| node["name"] == "ball")), "{json}");
+}
+
+#[test]
+fn what_a_model_lacks_is_told_once_by_each_command() {
+    let folder = Folder::new("lacking");
+    let json = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"emissiveTexture": {"index": 0}}], "textures": [{"source": 0}], "images": [{"uri": "none.png"}],
+        "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]}"#;
+    let model = folder.write("m.gltf", json);
+    let text = "[scene]\nfile = 'm.gltf'\n[scene.alternates]\nagain = 'm.gltf'\n";
+    let (spec, picture) = (folder.write("s.toml", text), folder.file("s.png"));
+    let count = |text: &str| text.matches("image 0 `none.png`: cannot read").count();
+    assert_eq!(count(&call(&["info", &model]).good()), 1);
+    let checked = call(&["check", &spec]).good();
+    assert!(count(&checked) == 1 && checked.contains("m.gltf: image 0"), "{checked}");
+    let rendered = call(&["render", &spec, "-o", &picture, "--size", "16x9", "--backend", "cpu", "--samples", "1"]);
+    assert_eq!((rendered.code, count(&rendered.err)), (Some(0), 1), "{}", rendered.err);
+    assert!(call(&["check", &spec, "--strict"]).refused().contains("--strict allows none"));
+    let refused = call(&["check", &spec, "--memory-limit", "300"]).refused();
+    assert!(refused.contains("the limit is 300 B") && refused.contains("--memory-limit"), "{refused}");
+}

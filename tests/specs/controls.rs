@@ -133,7 +133,8 @@ fn missing_contact_lines_fail() -> Result<(), Failed> {
             spec.lenses.iter_mut().filter_map(|lens| lens.glass.as_mut()).for_each(|glass| glass.contact = 0.0);
         };
         let Opened { scene, plan } = open(&path, &text, without)?.1;
-        let frame = cpu::Renderer::new(&scene, &plan).render(true, &|_| ());
+        let frame =
+            cpu::Renderer::new(&scene, &plan).and_then(|cpu| cpu.render(true, &|_| ())).expect("the CPU draws it");
         if compare(&right, &frame)?.verdict().is_ok() {
             return Err(format!("{name} without its lines passes").into());
         }
@@ -151,7 +152,7 @@ fn right() -> Reference {
 
 fn render(change: impl FnOnce(&mut Spec)) -> Frame {
     let opened = opened(change);
-    cpu::Renderer::new(&opened.scene, &opened.plan).render(true, &|_| ())
+    cpu::Renderer::new(&opened.scene, &opened.plan).and_then(|cpu| cpu.render(true, &|_| ())).expect("the CPU draws it")
 }
 
 fn shift(spec: &mut Spec, by: f64) {

@@ -70,7 +70,9 @@ impl Entry {
             return Ok(self.reference()?.frame.clone());
         }
         let opened = self.open_changed(|_| ())?.1;
-        Ok(cpu::Renderer::new(&opened.scene, &opened.plan).render(false, &|_| ()))
+        Ok(cpu::Renderer::new(&opened.scene, &opened.plan)
+            .and_then(|cpu| cpu.render(false, &|_| ()))
+            .expect("the CPU draws it"))
     }
 
     /// The CPU backend's picture, rendered once a process.

@@ -28,7 +28,7 @@ pub const SPECS: [&str; 13] = [
 pub fn on_cpu(entry: &Entry) -> Result<(), String> {
     let (_, opened) = entry.open()?;
     let aovs = entry.reference()?.frame.aovs.as_ref().ok_or("the reference has no AOVs")?;
-    let renderer = cpu::Renderer::new(&opened.scene, &opened.plan);
+    let renderer = cpu::Renderer::new(&opened.scene, &opened.plan).expect("a plan of this scene");
     check(&opened, aovs, 1, |[x, y]| Ok(renderer.pick(x, y)))
 }
 
@@ -96,7 +96,7 @@ mod on_device {
     /// Both backends report the same of a pixel: layers, fragments, what lenses take away.
     pub fn reports_agree(entry: &Entry) -> Result<(), String> {
         let (_, opened) = entry.open()?;
-        let renderer = cpu::Renderer::new(&opened.scene, &opened.plan);
+        let renderer = cpu::Renderer::new(&opened.scene, &opened.plan).expect("a plan of this scene");
         let [width, height] = opened.plan.view.size;
         let pixels: Vec<[u32; 2]> =
             (4..height).step_by(STEP).flat_map(|y| (4..width).step_by(STEP).map(move |x| [x, y])).collect();

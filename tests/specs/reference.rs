@@ -14,8 +14,8 @@ const CREASE: f32 = 0.35;
 
 /// Renders a spec and finds its edges.
 pub fn of(opened: &Opened) -> Reference {
-    let renderer = cpu::Renderer::new(&opened.scene, &opened.plan);
-    let frame = renderer.render(true, &|_| ());
+    let renderer = cpu::Renderer::new(&opened.scene, &opened.plan).expect("a plan of this scene");
+    let frame = renderer.render(true, &|_| ()).expect("the CPU draws it");
     let aovs = frame.aovs.as_ref().expect("AOVs were asked for");
     let maps = map_edges(&frame, aovs);
     let colors = either(&maps, &either(&creases(&frame, aovs), &hidden_edges(&renderer, frame.size)));

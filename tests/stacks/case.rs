@@ -271,6 +271,7 @@ fn model(rows: &[NodeRow]) -> Model {
             camera: None,
             light: None,
             drawn: true,
+            hidden: false,
         });
         if let Some(material) = material {
             model.meshes.push(Mesh { name: name.to_string(), primitives: vec![triangle(*material)] });

@@ -41,14 +41,32 @@ fn an_order_of_another_file_differs_somewhere() {
 #[test]
 fn exactly_the_graphs_with_a_cycle_are_refused() {
     let mut random = Random::new(11);
-    let (mut refused, mut accepted) = (0, 0);
+    let (mut refused, mut accepted, mut warned) = (0, 0, 0);
     for _ in 0..CASES {
         let case = random_edges(&mut random, 7);
-        let cyclic = has_cycle(case.lenses.len(), &edges(&case));
-        match PriorityGraph::new(&case.spec()) {
-            Ok(_) => {
+        let (spec, all) = (case.spec(), edges(&case));
+        let is_enabled = |lens: &usize| case.lenses[*lens].enabled;
+        let between_enabled = all.iter().copied().filter(|(below, above)| is_enabled(below) && is_enabled(above));
+        let cyclic = has_cycle(case.lenses.len(), &between_enabled.collect::<Vec<_>>());
+        match PriorityGraph::new(&spec) {
+            Ok(graph) => {
                 assert!(!cyclic, "a cycle was not found\n{}", case.toml());
                 accepted += 1;
+                // One that only disabled lenses close is a warning that prints it.
+                let warnings = graph.idle_cycles(&spec);
+                assert_eq!(!warnings.is_empty(), has_cycle(case.lenses.len(), &all), "{}", case.toml());
+                for warning in &warnings {
+                    let (disabled, _) = warning.split_once(" enabled, ").expect("it says who is disabled");
+                    let names = disabled
+                        .rsplit("once ")
+                        .next()
+                        .unwrap_or_default()
+                        .trim_end_matches([' ', 'i', 's', 'a', 'r', 'e']);
+                    let is_disabled = |name: &str| case.lenses.iter().any(|lens| lens.name == name && !lens.enabled);
+                    assert!(names.split(", ").all(is_disabled), "{warning}\n{}", case.toml());
+                    assert!(warning.contains("goes in a circle: "), "{warning}");
+                }
+                warned += usize::from(!warnings.is_empty());
             }
             Err(error) => {
                 assert!(cyclic, "there is no cycle: {error}\n{}", case.toml());
@@ -58,6 +76,7 @@ fn exactly_the_graphs_with_a_cycle_are_refused() {
         }
     }
     assert!(refused > CASES / 10 && accepted > CASES / 10, "{refused} refused, {accepted} accepted");
+    assert!(warned > CASES / 50, "{warned} warned of");
 }
 
 /// The whole cycle is printed, and each edge of it is one that the named line declares.

@@ -19,9 +19,9 @@ fn hides(case: &Case, above: usize, below: usize) -> bool {
 
 fn origin(plan: &Plan, item: &Item) -> Origin {
     let content = &plan.contents[item.content];
-    match (&content.nodes, content.model) {
-        (Some(patterns), _) => {
-            let written = patterns[0].to_string();
+    match (&content.only, content.model) {
+        (Some(only), _) => {
+            let written = only.nodes[0].to_string();
             let known = ["helper", "bolt", "gear", "cover"].into_iter().find(|name| *name == written);
             Origin::Nodes(known.expect("the case names this node"))
         }

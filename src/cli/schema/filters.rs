@@ -32,8 +32,8 @@ fn parameters(row: &FilterRow) -> Value {
         row.params.iter().filter(|param| param.default == ParamDefault::Required).map(|param| param.name).collect();
     let mut schema = table(&required, properties.into());
     if row.name == "show" {
-        schema["minProperties"] = json!(1);
-        schema["maxProperties"] = json!(1);
+        let nodes_alone = json!({ "required": ["nodes"], "properties": { "materials": false } });
+        schema["anyOf"] = json!([{ "required": ["alternate"] }, nodes_alone]);
     }
     described(schema, row.help, Value::Null)
 }

@@ -3,9 +3,11 @@
 mod filters;
 mod kinds;
 mod lens;
+mod listing;
 mod shapes;
 mod tables;
 
+pub use listing::{Row, keys_markdown, shape_rows};
 use serde_json::{Value, json};
 
 /// The schema of a whole spec file.

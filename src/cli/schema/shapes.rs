@@ -3,7 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::kinds::{described, numbers, points, reference, size, table, text, vector};
-use crate::spec::NumberRange;
+use crate::cli::words::sentence;
+use crate::spec::{NumberRange, catalogue};
 
 const NONE: Value = Value::Null;
 
@@ -11,7 +12,8 @@ const NONE: Value = Value::Null;
 pub fn shape() -> Value {
     let mut properties = Map::new();
     for (name, schema) in round().into_iter().chain(cornered()).chain(composed()) {
-        properties.insert(name.to_owned(), schema);
+        let help = catalogue::shape(name).map_or("", |row| row.help);
+        properties.insert(name.to_owned(), described(schema, &sentence(help), NONE));
     }
     json!({
         "description": "One shape.",
@@ -59,7 +61,16 @@ fn cornered() -> Vec<(&'static str, Value)> {
         "corners": described(points(3), "Of a convex polygon in one plane.", NONE),
         "depth": described(size(), "How far behind it the lens reaches; default: to the far plane.", NONE),
     });
+    let normal = |help| described(vector(), help, NONE);
+    let half_space = json!({ "point": point("On its plane."), "normal": normal("Points out of the volume; of any length but zero.") });
+    let slab = json!({
+        "point": point("Midway between the planes."),
+        "normal": normal("Across the planes; of any length but zero."),
+        "thickness": size(),
+    });
     vec![
+        ("halfspace", table(&["point", "normal"], half_space)),
+        ("slab", table(&["point", "normal", "thickness"], slab)),
         ("box", cuboid()),
         ("polytope", table(&["planes"], json!({ "planes": planes }))),
         ("hull", table(&["points"], json!({ "points": described(points(4), "Their convex hull.", NONE) }))),
@@ -94,11 +105,6 @@ fn composed() -> Vec<(&'static str, Value)> {
             NONE,
         ),
     });
-    let list = |help| json!({ "description": help, "type": "array", "items": reference("shape"), "minItems": 1 });
-    vec![
-        ("mesh", described(table(&["file"], mesh), "A closed mesh as a volume.", NONE)),
-        ("union", list("All of them together.")),
-        ("intersection", list("What all of them share.")),
-        ("difference", list("The first less the others.")),
-    ]
+    let list = || json!({ "type": "array", "items": reference("shape"), "minItems": 1 });
+    vec![("mesh", table(&["file"], mesh)), ("union", list()), ("intersection", list()), ("difference", list())]
 }

@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
+use super::listing::{Listed, TABLES};
 use super::schema;
-use crate::spec::catalogue::FILTERS;
-use crate::spec::keys;
+use crate::spec::catalogue::{FILTERS, SHAPES};
 
 fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let mut names: Vec<String> = names.into_iter().map(str::to_owned).collect();
@@ -22,30 +22,17 @@ fn keys_at(pointer: &str) -> Vec<String> {
 
 #[test]
 fn tables_have_the_readers_keys() {
-    for (pointer, keys) in [
-        ("", keys::DOCUMENT),
-        ("/properties/scene", keys::SCENE),
-        ("/properties/camera", keys::CAMERA),
-        ("/properties/image", keys::IMAGE),
-        ("/properties/light", keys::LIGHT),
-        ("/properties/light/properties/directional/items", keys::DIRECTIONAL),
-        ("/properties/lens/items", keys::LENS),
-        ("/properties/lens/items/properties/attach/anyOf/1", keys::ATTACH),
-        ("/properties/lens/items/properties/glass/anyOf/1", keys::GLASS),
-        ("/properties/overlap/items", keys::OVERLAP),
-        ("/properties/animation", keys::ANIMATION),
-        ("/properties/animation/properties/track/items", keys::TRACK),
-        ("/$defs/matches", keys::MATCHES),
-    ] {
+    for Listed { pointer, keys, .. } in TABLES {
         assert_eq!(keys_at(pointer), sorted(keys.iter().copied()), "{pointer}");
     }
 }
 
 #[test]
 fn shapes_have_the_readers_keys() {
-    assert_eq!(keys_at("/$defs/shape"), sorted(keys::SHAPES.iter().map(|(name, _)| *name)));
-    for (name, keys) in keys::SHAPES.iter().filter(|(_, keys)| !keys.is_empty()) {
-        assert_eq!(keys_at(&format!("/$defs/shape/properties/{name}")), sorted(keys.iter().copied()), "{name}");
+    assert_eq!(keys_at("/$defs/shape"), sorted(SHAPES.iter().map(|row| row.name)));
+    for row in SHAPES.iter().filter(|row| !row.keys.is_empty()) {
+        let keys = sorted(row.keys.iter().copied());
+        assert_eq!(keys_at(&format!("/$defs/shape/properties/{}", row.name)), keys, "{}", row.name);
     }
 }
 

@@ -1,22 +1,33 @@
 //! Caps on the rays of a block: boundaries inside the nodes that an eraser cuts (SEMANTICS 6.6).
 
+use std::sync::Arc;
+
 use super::{BlockRays, OneRay, Tracer, seen_range};
 use crate::cpu::block::Block;
 use crate::cpu::geometry::Geometry;
 use crate::lens::{Boundary, RayLayers, starts_boundary};
+use crate::pieces::{Around, Role};
 use crate::pixel::{Fragment, cap_number};
 use crate::plan::{Body, Closing, Instance, LensSet, Member, Plan};
-use crate::scene::Scene;
+use crate::scene::{Closure, Scene};
 use crate::view::Ray;
 
 /// The nodes that may be cut, whole: what lenses erase and what lies behind the far plane tells as well where their
 /// inside is.
 pub struct CutBodies {
     geometry: Geometry,
-    /// Of each instance, the body that it belongs to and which of its members it is.
-    places: Vec<Option<(u32, u32)>>,
+    /// Of each instance, its place in a body.
+    places: Vec<Option<Place>>,
     /// The lenses without which nothing is cut; `None` where something may be anyway.
     cut_by: Option<LensSet>,
+}
+
+/// Which member of which body something is, and what its triangles enclose.
+struct Place {
+    body: u32,
+    member: u32,
+    closure: Arc<Closure>,
+    primitive: usize,
 }
 
 /// A ray goes into a member of a body, or out of it.
@@ -26,8 +37,8 @@ pub struct Crossing {
     body: u32,
     member: u32,
     depth: f32,
-    /// How often the surface winds around what lies before it, less how often around what lies behind.
-    winding: i32,
+    role: Role,
+    turns_left: bool,
 }
 
 impl CutBodies {
@@ -36,11 +47,13 @@ impl CutBodies {
         if plan.bodies.is_empty() {
             return None;
         }
-        let mut places = vec![None; plan.instances.len()];
+        let mut places: Vec<Option<Place>> = (0..plan.instances.len()).map(|_| None).collect();
         let mut cut_by = LensSet::EMPTY;
         for (number, body) in (0u32..).zip(&plan.bodies) {
             for (member, Member { instance, .. }) in (0u32..).zip(&body.members) {
-                places[*instance] = Some((number, member));
+                let item = &plan.items[plan.instances[*instance].item];
+                let closure = scene.models[item.model].closure(item.mesh, item.ratio);
+                places[*instance] = Some(Place { body: number, member, closure, primitive: item.primitive });
             }
             cut_by = cut_by | plan.cutters(body);
         }
@@ -64,9 +77,11 @@ impl Tracer<'_> {
         crossings.clear();
         bundle.start(self.sheared(rays), f32::MAX);
         bundle.trace(&cut.geometry, &self.camera, block, &range, |ray, triangle, hit| {
-            if let Some((body, member)) = cut.places[triangle.instance as usize] {
-                let winding = if hit.turns_left { 1 } else { -1 };
-                crossings.push(Crossing { ray: ray as u32, body, member, depth: self.depth(hit.t), winding });
+            if let Some(place) = &cut.places[triangle.instance as usize] {
+                let Place { body, member, closure, primitive } = place;
+                let role = closure.primitives[*primitive].role(triangle.index as usize);
+                let (depth, turns_left) = (self.depth(hit.t), hit.turns_left);
+                crossings.push(Crossing { ray: ray as u32, body: *body, member: *member, depth, role, turns_left });
             }
             None
         });
@@ -123,23 +138,23 @@ fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>) -> Vec<f64> {
     depths
 }
 
-/// The members of a body that may be closed at a boundary: those that enclose it by themselves, and the first of the
-/// others where those do so together. None where the boundary lies outside.
+/// The members of a body that may be closed at a boundary: the first of each group whose pieces enclose it. None where the
+/// boundary lies outside.
 ///
 /// Told by what lies behind, so that it makes no difference where the ray starts. A surface in the boundary lies behind it.
 fn around<'b>(body: &'b Body, crossings: &'b [Crossing], boundary: f64) -> impl Iterator<Item = &'b Member> {
-    let winding = move |counts: &dyn Fn(usize) -> bool| {
+    let is_inside = move |counts: &dyn Fn(usize) -> bool| {
         let behind = crossings.iter().filter(|crossing| !starts_boundary(f64::from(crossing.depth), boundary));
-        behind.filter(|crossing| counts(crossing.member as usize)).map(|crossing| crossing.winding).sum::<i32>()
+        let mut around = Around::default();
+        behind
+            .filter(|crossing| counts(crossing.member as usize))
+            .for_each(|crossing| around.cross(crossing.role, crossing.turns_left));
+        around.is_inside()
     };
-    let is_closed = |number: usize| body.members[number].closed;
-    let first_open = body.members.iter().position(|member| !member.closed);
-    let encloses = move |number: usize| match is_closed(number) {
-        true => winding(&|other| other == number) != 0,
-        false => Some(number) == first_open && winding(&|other| !is_closed(other)) != 0,
-    };
-    let is_inside = winding(&|_| true) != 0;
-    let numbers = (0..body.members.len()).filter(move |number| is_inside && encloses(*number));
+    let group = |number: usize| body.members[number].group;
+    let encloses = move |number: &usize| group(*number) == *number && is_inside(&|other| group(other) == *number);
+    let is_in_body = is_inside(&|_| true);
+    let numbers = (0..body.members.len()).filter(move |_| is_in_body).filter(encloses);
     numbers.map(|number| &body.members[number])
 }
 

@@ -134,7 +134,7 @@ impl<'a> Compiler<'a> {
         Body::constants(self)?;
         let end = self.steps.len() as Target;
         let steps = std::mem::take(&mut self.steps);
-        let program = Program { steps, image: Vec::new() };
+        let program = Program { steps, image: Vec::new(), fuel: None };
         let mut at = 0;
         while at < end {
             at = program.steps[at as usize].act(&mut self.image, at + 1);
@@ -202,6 +202,7 @@ impl<'a> Compiler<'a> {
                 *target = self.labels[*target as usize];
             }
         }
-        Program { steps, image: self.image }
+        // The only variable there is.
+        Program { steps, image: self.image, fuel: self.variables.first().copied() }
     }
 }

@@ -149,6 +149,8 @@ pub struct Program {
     steps: Vec<Step>,
     /// The memory before a call.
     image: Vec<u32>,
+    /// Where the fuel of loops is, if there are some; see [`super::fuel`].
+    fuel: Option<Address>,
 }
 
 thread_local! {
@@ -157,7 +159,8 @@ thread_local! {
 
 impl Program {
     /// Calls a function with the words of its arguments; `read` sees the words of its result.
-    pub fn call<T>(&self, entry: &Entry, arguments: &[&[u32]], read: impl FnOnce(&[u32]) -> T) -> T {
+    /// `spent` grows by the fuel that it took.
+    pub fn call<T>(&self, entry: &Entry, arguments: &[&[u32]], spent: &mut u32, read: impl FnOnce(&[u32]) -> T) -> T {
         MEMORY.with_borrow_mut(|memory| {
             memory.clear();
             memory.extend_from_slice(&self.image);
@@ -167,6 +170,9 @@ impl Program {
             }
             memory[entry.link as usize] = HALT;
             self.run(memory, entry.start);
+            if let Some(fuel) = self.fuel {
+                *spent += self.image[fuel as usize] - memory[fuel as usize];
+            }
             read(entry.result.of(memory))
         })
     }

@@ -29,7 +29,7 @@ fn filter_surface(s: Surface, p: Params) -> Surface {
 fn filter_color(c: vec3f, s: Surface) -> vec3f { return c * s.metallic; }";
 
 fn spec() -> Source {
-    Source { name: "test.toml".into(), text: "x".into() }
+    Source::new("test.toml", "x")
 }
 
 fn given(name: &str, value: Value) -> Given {

@@ -1,10 +1,19 @@
-//! A line against triangles of a closed surface, such that the number of crossings is even.
+//! A line against triangles of a closed surface, such that it goes in as often as it comes out.
 //!
 //! The projection of Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (2013): a projected vertex is a
 //! function of the vertex alone. On which side of an edge the line passes is then decided exactly, and where it meets
 //! the edge, as if it were moved by an infinitesimal step (Edelsbrunner and Mücke's simulation of simplicity).
 
 use glam::{DVec2, DVec3};
+
+/// Where a line goes through a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineCrossing {
+    /// Parameter along the line.
+    pub t: f64,
+    /// The triangle's corners run to the left as seen along the line.
+    pub turns_left: bool,
+}
 
 /// A line prepared for triangle tests: sheared so that it runs along +z through the origin.
 pub struct ShearedLine {
@@ -28,8 +37,8 @@ impl ShearedLine {
         (DVec2::new(x - self.shear.x * z, y - self.shear.y * z), self.shear.z * z)
     }
 
-    /// The parameter at which the line goes through a triangle, whichever way it is turned.
-    pub fn crossing(&self, corners: [DVec3; 3]) -> Option<f64> {
+    /// Where the line goes through a triangle, whichever way that is turned.
+    pub fn crossing(&self, corners: [DVec3; 3]) -> Option<LineCrossing> {
         let [(a, ta), (b, tb), (c, tc)] = corners.map(|p| self.sheared(p));
         let sides = [side(c, b), side(a, c), side(b, a)];
         if sides != [1; 3] && sides != [-1; 3] {
@@ -40,7 +49,10 @@ impl ShearedLine {
         let depths = DVec3::new(ta, tb, tc);
         // A triangle seen edge on is crossed all the same: the count must stay even.
         let t = if whole == 0.0 { depths.element_sum() / 3.0 } else { weights.dot(depths) / whole };
-        Some(t.clamp(depths.min_element(), depths.max_element()))
+        Some(LineCrossing {
+            t: t.clamp(depths.min_element(), depths.max_element()),
+            turns_left: (sides[0] == 1) == (self.shear.z > 0.0),
+        })
     }
 }
 
@@ -74,7 +86,8 @@ mod tests {
         for target in [DVec3::ZERO, DVec3::new(0.5, 0.5, 0.0), DVec3::new(0.5, 0.0, 0.0), DVec3::new(-0.3, 0.1, 0.0)] {
             for eye in [DVec3::Z * 3.0, DVec3::Z * -3.0, DVec3::new(2.0, 1.0, 4.0), DVec3::new(-1.0, 3.0, 0.7)] {
                 let line = ShearedLine::new(eye, target - eye);
-                let depths: Vec<f64> = fan().into_iter().filter_map(|t| line.crossing(t)).collect();
+                let depths: Vec<f64> =
+                    fan().into_iter().filter_map(|t| line.crossing(t)).map(|crossing| crossing.t).collect();
                 assert!(depths.len() == 1 && (depths[0] - 1.0).abs() < 1e-12, "from {eye} to {target}: {depths:?}");
             }
         }

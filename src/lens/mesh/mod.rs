@@ -6,13 +6,15 @@ mod line;
 mod nearest;
 mod solid;
 mod surface;
+mod tree;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 pub use form::MeshForm;
-pub use solid::{MeshNode, MeshSolid};
+pub use solid::MeshSolid;
 use surface::Surface;
+pub use tree::{MeshNode, TriangleTree};
 
 use crate::spec::{Convex, MeshShape};
 

@@ -1,14 +1,10 @@
 //! The triangles of a glTF file, or of one node of it, as one surface.
 
-use std::collections::HashMap;
-
-use glam::{DAffine3, DVec3, I64Vec3};
+use glam::{DAffine3, DVec3};
 
 use crate::InputError;
+use crate::pieces::Welder;
 use crate::scene::{Aabb, Model};
-
-/// Vertices nearer than this are one; the surface fills the cube from -1 to 1.
-const WELD: f64 = 1e-6;
 
 /// Triangles over welded vertices, none of them without an area.
 #[derive(Debug, Clone)]
@@ -27,7 +23,7 @@ impl Surface {
     pub fn new(model: &Model, node: Option<usize>) -> Result<Self, InputError> {
         let is_in = |index: usize| match node {
             Some(root) => std::iter::successors(Some(index), |i| model.nodes[*i].parent).any(|i| i == root),
-            None => model.nodes[index].drawn,
+            None => model.nodes[index].is_shown(),
         };
         let corners: Vec<[DVec3; 3]> =
             (0..model.nodes.len()).filter(|i| is_in(*i)).flat_map(|i| corners(model, i)).collect();
@@ -43,45 +39,25 @@ impl Surface {
         }
         let pose =
             DAffine3::from_scale_rotation_translation(DVec3::splat(half), glam::DQuat::IDENTITY, bounds.center());
-        let mut welded = Welded::default();
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element() / half;
+        let mut welded = Welder::new(largest);
         let into_cube = |p: DVec3| (p - bounds.center()) / half;
-        let triangles = corners.iter().map(|t| t.map(|p| welded.index(into_cube(p))));
+        let triangles = corners.iter().map(|t| t.map(|p| welded.vertex(into_cube(p))));
         let triangles = triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect();
         Ok(Self { name, vertices: welded.vertices, triangles, pose })
     }
 }
 
-/// The triangles of a node's own mesh in the file's space.
+/// The triangles of a node's own mesh in the file's space, turned as they are seen: mirrors turn them round.
 fn corners(model: &Model, node: usize) -> Vec<[DVec3; 3]> {
     let node = &model.nodes[node];
+    let is_mirrored = node.world_from_local.matrix3.determinant() < 0.0;
+    let facing = move |[a, b, c]: [DVec3; 3]| if is_mirrored { [a, c, b] } else { [a, b, c] };
     let primitives = node.mesh.iter().flat_map(|mesh| &model.meshes[*mesh].primitives);
     primitives
         .flat_map(|primitive| {
             let at = |i: u32| node.world_from_local.transform_point3(primitive.positions[i as usize].as_dvec3());
-            primitive.triangles.iter().map(move |triangle| triangle.map(at))
+            primitive.triangles.iter().map(move |triangle| facing(triangle.map(at)))
         })
         .collect()
-}
-
-/// Vertices, found by the cells of a grid.
-#[derive(Default)]
-struct Welded {
-    vertices: Vec<DVec3>,
-    cells: HashMap<I64Vec3, u32>,
-}
-
-impl Welded {
-    /// The vertex at a point, new if there is none near enough.
-    fn index(&mut self, p: DVec3) -> u32 {
-        let cell = (p / WELD).floor().as_i64vec3();
-        let around = (0..27).map(|i| cell + I64Vec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-        let near = around.filter_map(|c| self.cells.get(&c).copied());
-        if let Some(known) = near.into_iter().find(|i| self.vertices[*i as usize].distance(p) <= WELD) {
-            return known;
-        }
-        let index = self.vertices.len() as u32;
-        self.vertices.push(p);
-        self.cells.insert(cell, index);
-        index
-    }
 }

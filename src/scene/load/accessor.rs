@@ -10,6 +10,14 @@ use crate::InputError;
 /// Elements of one accessor that has no bytes of its own (all zero but for sparse values): 48 MiB of positions.
 const MAX_ZERO_ELEMENTS: u64 = 1 << 22;
 
+/// The most elements that an accessor can turn out to have: what it claims, or what its buffer has bytes for.
+pub fn most_elements(root: &json::Root, index: usize) -> u64 {
+    let Some(accessor) = root.accessors.get(index) else { return 0 };
+    let view = accessor.buffer_view.as_ref().and_then(|view| root.buffer_views.get(view.value()));
+    let bytes = view.and_then(|view| root.buffers.get(view.buffer.value())).map_or(u64::MAX, |b| b.byte_length.0);
+    accessor.count.0.min(bytes)
+}
+
 /// One accessor, its types known.
 pub struct Accessor<'f> {
     file: &'f File<'f>,
@@ -154,7 +162,12 @@ impl<'f> Accessor<'f> {
 pub fn view_bytes<'f>(file: &'f File<'_>, view: usize, owner: &str) -> Result<&'f [u8], InputError> {
     let missing = || file.error(owner, format!("buffer view {view} is not in the file"));
     let json = file.root().buffer_views.get(view).ok_or_else(missing)?;
-    let buffer = file.buffers.get(json.buffer.value()).ok_or_else(missing)?;
+    let index = json.buffer.value();
+    let Some(buffer) = file.buffers.get(index).ok_or_else(missing)? else {
+        return Err(file
+            .error(owner, format!("its bytes are in buffer {index}, which has neither a URI nor a binary chunk"))
+            .help("only buffer 0 of a GLB file may leave its URI out"));
+    };
     let start = json.byte_offset.map_or(0, |o| o.0);
     let range = start.checked_add(json.byte_length.0).filter(|end| *end <= buffer.len() as u64);
     let Some(end) = range else {

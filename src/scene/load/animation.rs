@@ -4,29 +4,43 @@ use glam::{DVec3, DVec4};
 use gltf::json::animation::{self as json, Property as Path};
 use gltf::json::validation::Checked;
 
-use super::accessor::Accessor;
-use super::{File, count_of, object};
+use super::accessor::{Accessor, most_elements};
+use super::warnings::Warnings;
+use super::{File, object};
 use crate::InputError;
-use crate::scene::{Animation, Channel, Interpolation, Node, Property, Transform};
+use crate::scene::{Animation, Budget, Channel, Interpolation, Node, Property, Transform};
 
 /// All animations of the file; channels that move no node are left out with a warning.
-pub fn load(file: &File<'_>, nodes: &[Node], warnings: &mut Vec<String>) -> Result<Vec<Animation>, InputError> {
+pub fn load(
+    file: &File<'_>,
+    nodes: &[Node],
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Vec<Animation>, InputError> {
     let mut animations = Vec::new();
     for (index, json) in file.root().animations.iter().enumerate() {
         let label = object("animation", index, json.name.as_deref());
         let mut channels = Vec::new();
         for (number, channel) in json.channels.iter().enumerate() {
             let place = format!("{label}, channel {number}");
+            budget.take(cost(file, json, channel), || format!("{}: {place}", file.name))?;
             channels.extend(read(file, nodes, channel, &json.samplers[channel.sampler.value()], &place)?);
         }
         let weights = json.channels.len() - channels.len();
         if weights > 0 {
-            let weights = count_of(weights, "channel");
-            warnings.push(format!("{label}: {weights} of weights not played: morph targets are not applied"));
+            warnings.add_count(label, weights, "channel", "of weights not played: morph targets are not applied");
         }
         animations.push(Animation { name: json.name.clone().unwrap_or_default(), channels });
     }
     Ok(animations)
+}
+
+/// Bytes of a channel's times and values; channels may share accessors.
+fn cost(file: &File<'_>, animation: &json::Animation, channel: &json::Channel) -> u64 {
+    let sampler = &animation.samplers[channel.sampler.value()];
+    let count = |index: usize| most_elements(file.root(), index);
+    let (keys, values) = (count(sampler.input.value()), count(sampler.output.value()));
+    keys.saturating_mul(16).saturating_add(values.saturating_mul(64))
 }
 
 /// One channel; `None` if it is of morph weights.
@@ -65,9 +79,9 @@ fn read(
     }
     let times = times(file, sampler.input.value(), place)?;
     let accessor = Accessor::new(file, sampler.output.value(), &format!("{place}, output"))?;
-    let expected = times.len() * interpolation.values_per_key();
+    let expected = times.len().saturating_mul(interpolation.values_per_key());
     if accessor.count() != expected as u64 {
-        let (there, keys) = (accessor.count(), count_of(times.len(), "key"));
+        let (there, keys) = (accessor.count(), super::count_of(times.len(), "key"));
         return Err(accessor.error(format!("{there} elements, expected {expected} for {keys}")));
     }
     let values = values(&accessor, property)?;

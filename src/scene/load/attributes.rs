@@ -7,8 +7,9 @@ use gltf::json::accessor::Type;
 use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
 
+use super::File;
 use super::accessor::Accessor;
-use super::{File, count_of};
+use super::warnings::Warnings;
 use crate::InputError;
 
 /// Reads the attributes of one primitive.
@@ -47,7 +48,7 @@ impl<'f> Attributes<'f> {
         accessor: &Accessor<'_>,
         count: usize,
         normalize: bool,
-        warnings: &mut Vec<String>,
+        warnings: &mut Warnings,
     ) -> Result<Vec<[f32; N]>, InputError> {
         if accessor.count() != count as u64 {
             return Err(accessor.error(format!("{} elements, expected {count} as of POSITION", accessor.count())));
@@ -59,7 +60,7 @@ impl<'f> Attributes<'f> {
             bad += 1;
         }
         if bad > 0 {
-            warnings.push(format!("{}: {} not finite, taken as zero", self.place, count_of(bad, "attribute value")));
+            warnings.add_count(self.place, bad, "attribute value", "not finite, taken as zero");
         }
         Ok(values)
     }
@@ -68,7 +69,7 @@ impl<'f> Attributes<'f> {
         &self,
         semantic: Semantic,
         count: usize,
-        warnings: &mut Vec<String>,
+        warnings: &mut Warnings,
     ) -> Result<Option<Vec<[f32; N]>>, InputError> {
         let Some(accessor) = self.accessor(semantic) else { return Ok(None) };
         self.read(&accessor?, count, false, warnings).map(Some)
@@ -79,24 +80,20 @@ impl<'f> Attributes<'f> {
         &self,
         positions: &[Vec3],
         triangles: &[[u32; 3]],
-        warnings: &mut Vec<String>,
+        warnings: &mut Warnings,
     ) -> Result<Option<Vec<Vec3>>, InputError> {
         let Some(values) = self.optional::<3>(Semantic::Normals, positions.len(), warnings)? else { return Ok(None) };
         let mut normals: Vec<Vec3> = values.into_iter().map(|n| Vec3::from(n).normalize_or_zero()).collect();
         let broken = normals.iter().filter(|n| **n == Vec3::ZERO).count();
         if broken > 0 {
             repair_normals(&mut normals, positions, triangles);
-            warnings.push(format!("{}: {} of zero length rebuilt", self.place, count_of(broken, "normal")));
+            warnings.add_count(self.place, broken, "normal", "of zero length rebuilt");
         }
         Ok(Some(normals))
     }
 
     /// Tangents of unit length; glTF gives them no meaning without normals.
-    pub fn tangents(
-        &self,
-        normals: Option<&[Vec3]>,
-        warnings: &mut Vec<String>,
-    ) -> Result<Option<Vec<Vec4>>, InputError> {
+    pub fn tangents(&self, normals: Option<&[Vec3]>, warnings: &mut Warnings) -> Result<Option<Vec<Vec4>>, InputError> {
         let Some(normals) = normals else { return Ok(None) };
         let values = self.optional::<4>(Semantic::Tangents, normals.len(), warnings)?;
         let unit = |([x, y, z, w], normal): ([f32; 4], &Vec3)| {
@@ -106,13 +103,13 @@ impl<'f> Attributes<'f> {
         Ok(values.map(|values| values.into_iter().zip(normals).map(unit).collect()))
     }
 
-    pub fn uv(&self, set: u32, count: usize, warnings: &mut Vec<String>) -> Result<Option<Vec<Vec2>>, InputError> {
+    pub fn uv(&self, set: u32, count: usize, warnings: &mut Warnings) -> Result<Option<Vec<Vec2>>, InputError> {
         let values = self.optional::<2>(Semantic::TexCoords(set), count, warnings)?;
         Ok(values.map(|values| values.into_iter().map(Vec2::from).collect()))
     }
 
     /// Integer colours are always fractions of 1, and RGB ones are opaque.
-    pub fn colors(&self, count: usize, warnings: &mut Vec<String>) -> Result<Option<Vec<Vec4>>, InputError> {
+    pub fn colors(&self, count: usize, warnings: &mut Warnings) -> Result<Option<Vec<Vec4>>, InputError> {
         let Some(accessor) = self.accessor(Semantic::Colors(0)) else { return Ok(None) };
         let accessor = accessor?;
         let colors = if accessor.kind == Type::Vec3 {
@@ -128,7 +125,7 @@ impl<'f> Attributes<'f> {
 
 impl Attributes<'_> {
     /// The attributes of the file's own, whose names begin with `_`: one number each, the length of those with several.
-    pub fn values(&self, count: usize, warnings: &mut Vec<String>) -> Result<BTreeMap<String, Vec<f32>>, InputError> {
+    pub fn values(&self, count: usize, warnings: &mut Warnings) -> Result<BTreeMap<String, Vec<f32>>, InputError> {
         let mut all = BTreeMap::new();
         for semantic in self.json.attributes.keys() {
             let Checked::Valid(semantic @ Semantic::Extras(_)) = semantic else { continue };
@@ -140,7 +137,7 @@ impl Attributes<'_> {
                 Type::Vec3 => lengths(self.read::<3>(&accessor, count, false, warnings)?),
                 Type::Vec4 => lengths(self.read::<4>(&accessor, count, false, warnings)?),
                 _ => {
-                    warnings.push(format!("{}: attribute {} is a matrix, left out", self.place, semantic.to_string()));
+                    warnings.add(self.place, format!("attribute {} is a matrix, left out", semantic.to_string()));
                     continue;
                 }
             };

@@ -11,36 +11,57 @@ use image::{ImageFormat, ImageReader};
 use rayon::prelude::*;
 
 use super::accessor::view_bytes;
-use super::{Fetch, File, object, open};
+use super::open::{self, Fault, Fetch};
+use super::warnings::Warnings;
+use super::{File, object};
 use crate::InputError;
-use crate::scene::Image;
+use crate::scene::{Budget, Image};
 
-/// Pixels of all images together: 1 GiB decoded. Compressed images can claim any size in a few bytes.
-const MAX_PIXELS: u64 = 1 << 28;
+/// Memory of an image, a pixel: as it is kept, with its mip levels, and while it is decoded. Compressed images can claim
+/// any size in a few bytes.
+const PIXEL_BYTES: u64 = 16;
+/// Bytes of what an image holds beside its pixels, as a colour profile.
+const BESIDE_PIXELS: u64 = 64 << 20;
 
-/// All images of the file; only those in `used` (ascending) are decoded.
-pub fn load(file: &File<'_>, used: &[usize], fetch: &mut Fetch<'_>) -> Result<Vec<Image>, InputError> {
+/// All images of the file, of which only those in `used` (ascending) are decoded, and those of them that could not be.
+pub fn load(
+    file: &File<'_>,
+    used: &[usize],
+    fetch: &mut Fetch<'_>,
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<(Vec<Image>, Vec<usize>), InputError> {
     let mut encoded = Vec::with_capacity(used.len());
-    let mut pixels = 0u64;
+    let mut unread = Vec::new();
     for &index in used {
-        let bytes = bytes(file, index, fetch)?;
-        let (width, height) =
-            reader(&bytes).and_then(|r| r.into_dimensions()).map_err(|e| undecodable(file, index, &e))?;
-        pixels = pixels.saturating_add(u64::from(width) * u64::from(height));
-        if pixels > MAX_PIXELS {
-            let what = format!("with its {width} x {height} pixels the images have more than {MAX_PIXELS} in all");
-            return Err(file.error(label(file, index), what).help("use smaller textures"));
+        let place = label(file, index);
+        match bytes(file, index, &place, fetch, budget)
+            .and_then(|bytes| take(bytes, &format!("{}: {place}", file.name), budget))
+        {
+            Ok(bytes) => encoded.push((index, bytes)),
+            Err(Fault::Missing(error)) => {
+                warnings.add(place, without(&error));
+                unread.push(index);
+            }
+            Err(refused) => return Err(refused.into()),
         }
-        encoded.push((index, bytes));
     }
-    let decoded: Vec<_> = encoded.par_iter().map(|(index, bytes)| decode(file, *index, bytes)).collect();
+    let decoded: Vec<_> = encoded.par_iter().map(|(_, bytes)| decode(bytes)).collect();
+    let own = encoded.iter().filter(|(_, bytes)| matches!(bytes, Cow::Owned(_)));
+    budget.give_back(own.map(|(_, bytes)| bytes.len() as u64).sum());
     let name = |i: &json::Image| i.name.clone().or(file_name(i)).unwrap_or_default();
     let blank = |i: &json::Image| Image { name: name(i), width: 1, height: 1, pixels: vec![[255; 4]] };
     let mut images: Vec<Image> = file.root().images.iter().map(blank).collect();
-    for (index, result) in used.iter().zip(decoded) {
-        images[*index] = Image { name: std::mem::take(&mut images[*index].name), ..result? };
+    for ((index, _), result) in encoded.iter().zip(decoded) {
+        match result {
+            Ok(image) => images[*index] = Image { name: std::mem::take(&mut images[*index].name), ..image },
+            Err(error) => {
+                warnings.add(label(file, *index), without(&undecodable(&error)));
+                unread.push(*index);
+            }
+        }
     }
-    Ok(images)
+    Ok((images, unread))
 }
 
 fn label(file: &File<'_>, index: usize) -> String {
@@ -48,21 +69,42 @@ fn label(file: &File<'_>, index: usize) -> String {
     object("image", index, json.name.clone().or(file_name(json)).as_deref())
 }
 
+/// A warning in the place of an error.
+fn without(error: &InputError) -> String {
+    format!("{}: materials are drawn without it", error.message)
+}
+
 /// An image without a name goes by its file's.
 fn file_name(json: &json::Image) -> Option<String> {
     json.uri.clone().filter(|uri| !uri.starts_with("data:"))
 }
 
-fn bytes<'f>(file: &'f File<'_>, index: usize, fetch: &mut Fetch<'_>) -> Result<Cow<'f, [u8]>, InputError> {
+fn bytes<'f>(
+    file: &'f File<'_>,
+    index: usize,
+    place: &str,
+    fetch: &mut Fetch<'_>,
+    budget: &mut Budget,
+) -> Result<Cow<'f, [u8]>, Fault> {
     let json = &file.root().images[index];
-    let place = label(file, index);
     match (&json.uri, json.buffer_view) {
-        (Some(uri), _) => open::bytes_of(uri, fetch)
-            .map(Cow::Owned)
-            .map_err(|e| InputError { message: format!("{}: {place}: {}", file.name, e.message), ..e }),
-        (None, Some(view)) => view_bytes(file, view.value(), &place).map(Cow::Borrowed),
-        (None, None) => Err(file.error(place, "it has neither a URI nor a buffer view")),
+        (Some(uri), _) => open::bytes_of(uri, fetch, budget).map(Cow::Owned).map_err(|fault| match fault {
+            Fault::Refused(_) => fault.of(&format!("{}: {place}", file.name)),
+            missing => missing,
+        }),
+        (None, Some(view)) => view_bytes(file, view.value(), place).map(Cow::Borrowed).map_err(Fault::Refused),
+        (None, None) => Err(Fault::Missing(InputError::new("it has neither a URI nor a buffer view"))),
     }
+}
+
+/// Takes the memory of an image before it is decoded.
+fn take<'a>(bytes: Cow<'a, [u8]>, place: &str, budget: &mut Budget) -> Result<Cow<'a, [u8]>, Fault> {
+    let (width, height) =
+        reader(&bytes).and_then(|r| r.into_dimensions()).map_err(|e| Fault::Missing(undecodable(&e)))?;
+    let pixels = u64::from(width) * u64::from(height);
+    let what = || format!("{place}, with {width} x {height} pixels");
+    budget.take(pixels * PIXEL_BYTES, what).map_err(Fault::Refused)?;
+    Ok(bytes)
 }
 
 /// The bytes tell the format; names and MIME types in files are often wrong.
@@ -75,36 +117,33 @@ fn reader(bytes: &[u8]) -> image::ImageResult<ImageReader<Cursor<&[u8]>>> {
     Ok(ImageReader::with_format(Cursor::new(bytes), format))
 }
 
-fn decode(file: &File<'_>, index: usize, bytes: &[u8]) -> Result<Image, InputError> {
-    let decoded = reader(bytes).and_then(|r| r.decode()).map_err(|e| undecodable(file, index, &e))?;
-    Ok(rgba8(decoded))
-}
-
-fn rgba8(decoded: image::DynamicImage) -> Image {
-    let rgba = decoded.into_rgba8();
-    let (width, height) = rgba.dimensions();
-    let pixels = rgba.pixels().map(|p| p.0).collect();
-    Image { name: String::new(), width, height, pixels }
+fn decode(bytes: &[u8]) -> image::ImageResult<Image> {
+    let (width, height) = reader(bytes)?.into_dimensions()?;
+    let mut reader = reader(bytes)?;
+    // The budget has allowed these pixels; the crate's own limit is lower.
+    let mut limits = image::Limits::default();
+    limits.max_alloc = Some(u64::from(width) * u64::from(height) * PIXEL_BYTES + BESIDE_PIXELS);
+    reader.limits(limits);
+    let rgba = reader.decode()?.into_rgba8();
+    let pixels = rgba.pixels().map(|pixel| pixel.0).collect();
+    Ok(Image { name: String::new(), width, height, pixels })
 }
 
 impl Image {
     /// A PNG or JPEG file of its own, for a filter.
-    pub fn load(path: &std::path::Path) -> Result<Image, InputError> {
+    pub(in crate::scene) fn load(path: &std::path::Path, budget: &mut Budget) -> Result<Image, InputError> {
         let name = path.display().to_string();
-        let bytes = open::read_file(path)?;
-        let fail = |e: image::ImageError| {
-            InputError::new(format!("{name}: it does not decode: {e}")).help("expected PNG or JPEG")
-        };
-        let (width, height) = reader(&bytes).and_then(|r| r.into_dimensions()).map_err(fail)?;
-        if u64::from(width) * u64::from(height) > MAX_PIXELS {
-            let message = format!("{name}: it has {width} x {height} pixels, and at most {MAX_PIXELS} are read");
-            return Err(InputError::new(message).help("use a smaller image"));
-        }
-        let decoded = reader(&bytes).and_then(|r| r.decode()).map_err(fail)?;
-        Ok(Image { name, ..rgba8(decoded) })
+        let bytes = open::read_file(path, budget)?;
+        let read = take(Cow::Borrowed(&bytes), &name, budget);
+        let image = read.and_then(|bytes| decode(&bytes).map_err(|e| Fault::Missing(undecodable(&e))));
+        budget.give_back(bytes.len() as u64);
+        image.map(|image| Image { name: name.clone(), ..image }).map_err(|fault| match fault {
+            Fault::Missing(_) => fault.of(&name).into(),
+            Fault::Refused(error) => error,
+        })
     }
 }
 
-fn undecodable(file: &File<'_>, index: usize, error: &image::ImageError) -> InputError {
-    file.error(label(file, index), format!("it does not decode: {error}")).help("expected PNG or JPEG")
+fn undecodable(error: &image::ImageError) -> InputError {
+    InputError::new(format!("it does not decode: {error}")).help("expected PNG or JPEG")
 }

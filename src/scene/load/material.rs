@@ -6,12 +6,13 @@ use gltf::json::material::{NormalTexture, OcclusionTexture};
 use gltf::json::texture::Info;
 
 use super::texture::{Use, reference};
+use super::warnings::Warnings;
 use super::{File, object};
 use crate::InputError;
 use crate::scene::{AlphaMode, Material, TextureRef};
 
 /// The file's materials, then glTF's default one.
-pub fn load(file: &File<'_>, warnings: &mut Vec<String>) -> Result<Vec<Material>, InputError> {
+pub fn load(file: &File<'_>, warnings: &mut Warnings) -> Result<Vec<Material>, InputError> {
     let mut materials = Vec::with_capacity(file.root().materials.len() + 1);
     for source in file.document.materials() {
         materials.push(material(file, &source, warnings)?);
@@ -20,7 +21,7 @@ pub fn load(file: &File<'_>, warnings: &mut Vec<String>) -> Result<Vec<Material>
     Ok(materials)
 }
 
-fn material(file: &File<'_>, source: &gltf::Material<'_>, warnings: &mut Vec<String>) -> Result<Material, InputError> {
+fn material(file: &File<'_>, source: &gltf::Material<'_>, warnings: &mut Warnings) -> Result<Material, InputError> {
     let index = source.index().unwrap_or_default();
     let json = &file.root().materials[index];
     let label = object("material", index, source.name());
@@ -66,7 +67,7 @@ fn check_numbers(file: &File<'_>, label: &str, material: &Material) -> Result<()
 struct Slots<'s, 'f> {
     file: &'s File<'f>,
     label: &'s str,
-    warnings: &'s mut Vec<String>,
+    warnings: &'s mut Warnings,
 }
 
 impl Slots<'_, '_> {

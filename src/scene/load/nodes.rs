@@ -3,6 +3,8 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::json;
 
+use super::json::Placement;
+use super::warnings::Warnings;
 use super::{File, object};
 use crate::InputError;
 use crate::scene::{Node, Transform, pose::top_down};
@@ -12,17 +14,22 @@ use crate::spec::SceneChoice;
 pub fn load(
     file: &File<'_>,
     choice: Option<&SceneChoice>,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
 ) -> Result<(Vec<Node>, usize), InputError> {
     let scene = choose(file, choice)?;
+    let mut hidden = Vec::with_capacity(file.root().nodes.len());
     let mut nodes = Vec::with_capacity(file.root().nodes.len());
     for (index, json) in file.root().nodes.iter().enumerate() {
         nodes.push(node(file, index, json, warnings)?);
+        hidden.push(is_hidden(json));
     }
     link(file, &mut nodes)?;
     let order = top_down(&nodes);
     no_cycles(file, &nodes, &order)?;
     draw(file, &mut nodes, scene, &order);
+    for &index in &order {
+        nodes[index].hidden = hidden[index] || nodes[index].parent.is_some_and(|parent| nodes[parent].hidden);
+    }
     Ok((nodes, scene))
 }
 
@@ -50,9 +57,9 @@ fn choose(file: &File<'_>, choice: Option<&SceneChoice>) -> Result<usize, InputE
 }
 
 /// One node on its own: links and the place in the world come later.
-fn node(file: &File<'_>, index: usize, json: &json::Node, warnings: &mut Vec<String>) -> Result<Node, InputError> {
+fn node(file: &File<'_>, index: usize, json: &json::Node, warnings: &mut Warnings) -> Result<Node, InputError> {
     let label = object("node", index, json.name.as_deref());
-    let rest = transform(json, &label, warnings);
+    let rest = transform(&file.placements[index], &label, warnings);
     if !rest.parent_from_local().is_finite() {
         return Err(file.error(label, "its transform is not finite"));
     }
@@ -66,32 +73,39 @@ fn node(file: &File<'_>, index: usize, json: &json::Node, warnings: &mut Vec<Str
         camera: json.camera.map(|c| c.value()),
         light: json.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map(|l| l.light.value()),
         drawn: false,
+        hidden: false,
     })
 }
 
-fn transform(json: &json::Node, label: &str, warnings: &mut Vec<String>) -> Transform {
-    if let Some(m) = json.matrix {
+/// By `KHR_node_visibility`, of itself.
+fn is_hidden(json: &json::Node) -> bool {
+    let visibility = json.extensions.as_ref().and_then(|e| e.others.get("KHR_node_visibility"));
+    visibility.and_then(|v| v.get("visible")?.as_bool()) == Some(false)
+}
+
+fn transform(placement: &Placement, label: &str, warnings: &mut Warnings) -> Transform {
+    if let Some(m) = placement.matrix {
         if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
-            warnings.push(format!("{label}: the last row of its matrix is not 0 0 0 1 and is ignored"));
+            warnings.add(label, "the last row of its matrix is not 0 0 0 1 and is ignored");
         }
-        let column = |c: usize| DVec3::new(m[4 * c].into(), m[4 * c + 1].into(), m[4 * c + 2].into());
+        let column = |c: usize| DVec3::new(m[4 * c], m[4 * c + 1], m[4 * c + 2]);
         let matrix = DMat3::from_cols(column(0), column(1), column(2));
         return Transform::Matrix(DAffine3 { matrix3: matrix, translation: column(3) });
     }
-    let vector = |v: Option<[f32; 3]>, default| v.map_or(default, |v| DVec3::from(v.map(f64::from)));
+    let vector = |v: Option<[f64; 3]>, default| v.map_or(default, DVec3::from);
     Transform::Parts {
-        translation: vector(json.translation, DVec3::ZERO),
-        rotation: rotation(json, label, warnings),
-        scale: vector(json.scale, DVec3::ONE),
+        translation: vector(placement.translation, DVec3::ZERO),
+        rotation: rotation(placement, label, warnings),
+        scale: vector(placement.scale, DVec3::ONE),
     }
 }
 
-fn rotation(json: &json::Node, label: &str, warnings: &mut Vec<String>) -> DQuat {
-    let Some(rotation) = &json.rotation else { return DQuat::IDENTITY };
-    let quaternion = DQuat::from_array(rotation.0.map(f64::from));
+fn rotation(placement: &Placement, label: &str, warnings: &mut Warnings) -> DQuat {
+    let Some(rotation) = placement.rotation else { return DQuat::IDENTITY };
+    let quaternion = DQuat::from_array(rotation);
     let length = quaternion.length();
     if length == 0.0 || !length.is_finite() {
-        warnings.push(format!("{label}: its rotation is not a quaternion and is ignored"));
+        warnings.add(label, "its rotation is not a quaternion and is ignored");
         return DQuat::IDENTITY;
     }
     quaternion / length

@@ -3,13 +3,32 @@
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
-use super::File;
+use super::warnings::Warnings;
+use super::{File, losses, object};
 use crate::InputError;
 use crate::scene::{Mips, Sampler, Texture, TextureRef, Wrap};
 
 /// All textures, in the file's order.
-pub fn load(file: &File<'_>) -> Vec<Texture> {
-    file.document.textures().map(|t| Texture { image: t.source().index(), sampler: sampler(&t.sampler()) }).collect()
+pub fn load(file: &File<'_>, warnings: &mut Warnings) -> Vec<Texture> {
+    let texture = |t: gltf::Texture<'_>| {
+        let json = &file.root().textures[t.index()];
+        // The crate puts a number in the place of a source that is not there.
+        let image = Some(json.source.value()).filter(|index| *index < file.root().images.len());
+        if image.is_none() {
+            let label = object("texture", t.index(), json.name.as_deref());
+            warnings.add(
+                label,
+                match losses::texture_source(json) {
+                    Some(extension) => {
+                        format!("its image is of {extension}, which is not read: materials are drawn without")
+                    }
+                    None => "it has no image: materials are drawn without".into(),
+                },
+            );
+        }
+        Texture { image, sampler: sampler(&t.sampler()) }
+    };
+    file.document.textures().map(texture).collect()
 }
 
 fn sampler(json: &gltf::texture::Sampler<'_>) -> Sampler {
@@ -50,7 +69,7 @@ pub fn reference(
     file: &File<'_>,
     material: &str,
     used: Use<'_>,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
 ) -> Result<Option<TextureRef>, InputError> {
     let (offset, scale, rotation) =
         used.transform.map_or(([0.0; 2], [1.0; 2], 0.0), |t| (t.offset.0, t.scale.0, t.rotation.0));
@@ -59,7 +78,7 @@ pub fn reference(
     }
     let set = used.transform.and_then(|t| t.tex_coord).unwrap_or(used.tex_coord);
     if set > 1 {
-        warnings.push(format!("{material}: texture {} uses coordinate set {set}; left out", used.texture));
+        warnings.add(material, format!("texture {} uses coordinate set {set}; left out", used.texture));
         return Ok(None);
     }
     // glTF turns counter-clockwise with v pointing down, which in (u, v) is a rotation by the negative angle.

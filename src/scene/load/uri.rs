@@ -5,7 +5,7 @@
 pub enum Target {
     /// The bytes of a data URI.
     Data(Vec<u8>),
-    /// A path relative to the file, percent-decoded.
+    /// A path as the file writes it, percent-decoded; see [`leads_out`].
     Relative(String),
 }
 
@@ -20,11 +20,26 @@ pub fn parse(uri: &str) -> Result<Target, String> {
         return Err(format!("a `{scheme}:` URI, expected a relative path or a data URI"));
     }
     let path = String::from_utf8(percent_decode(uri)).map_err(|_| "its URI is not UTF-8".to_string())?;
-    let absolute = path.starts_with(['/', '\\']) || path.as_bytes().get(1) == Some(&b':');
-    if path.is_empty() || absolute || path.contains('\0') {
+    if path.is_empty() || path.contains('\0') {
         return Err(format!("the path `{}`, expected one relative to the model's file", path.escape_default()));
     }
     Ok(Target::Relative(path))
+}
+
+/// Whether a path is absolute or climbs above where it starts, whatever lies there: on any system, so that a file means
+/// the same on all.
+pub fn leads_out(path: &str) -> bool {
+    let absolute = path.starts_with(['/', '\\']) || path.as_bytes().get(1) == Some(&b':');
+    let mut depth = 0i64;
+    let climbs = path.split(['/', '\\']).any(|part| {
+        depth += match part {
+            "" | "." => 0,
+            ".." => -1,
+            _ => 1,
+        };
+        depth < 0
+    });
+    absolute || climbs
 }
 
 fn data(rest: &str) -> Result<Vec<u8>, String> {
@@ -101,8 +116,24 @@ mod tests {
     fn paths() {
         assert_eq!(parse("a%20b/c.bin"), Ok(Target::Relative("a b/c.bin".into())));
         assert_eq!(parse("100%.png"), Ok(Target::Relative("100%.png".into())));
-        for refused in ["http://host/x.bin", "file:///x.bin", "/etc/x", "C:\\x", "%2fx", "", "a%00b"] {
+        for refused in ["http://host/x.bin", "file:///x.bin", "", "a%00b"] {
             assert!(parse(refused).is_err(), "{refused}");
+        }
+    }
+
+    #[test]
+    fn paths_that_lead_out_of_the_folder() {
+        let leads_out = |uri: &str| match parse(uri) {
+            Ok(Target::Relative(path)) => leads_out(&path),
+            other => panic!("{uri}: {other:?}"),
+        };
+        for out in
+            ["/etc/x", "C:\\x", "%2fx", "..", "../x", "a/../../x", "%2e%2e/x", "..%2fx", "a\\..\\..\\x", "./../x"]
+        {
+            assert!(leads_out(out), "{out}");
+        }
+        for inside in ["x", "a/../x", "./x", "...", "a..b/x", "a/b/../../x"] {
+            assert!(!leads_out(inside), "{inside}");
         }
     }
 }

@@ -1,11 +1,13 @@
-//! Every filter of the format: kind, help, parameters with type, range and default.
-//! The reader of specs, `lenspeel filters` and the JSON Schema all answer from here.
+//! Every filter of the format: kind, help, parameters with type, range and default; and every shape.
+//! The reader of specs, `lenspeel filters`, `lenspeel shapes` and the JSON Schema all answer from here.
 
 mod rows;
+mod shapes;
 
 use std::fmt;
 
 pub use rows::FILTERS;
+pub use shapes::{SHAPES, ShapeRow, shape};
 
 use super::NumberRange;
 

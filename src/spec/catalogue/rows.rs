@@ -41,7 +41,7 @@ pub const FILTERS: &[FilterRow] = &[
     filter("erase", Content, "removes what it matches", ERASE),
     pictured(
         "show-alternate.png",
-        filter("show", Content, "shows another content here: an alternate, or exactly these nodes", SHOW),
+        filter("show", Content, "shows another content here: an alternate or some of it, or exactly these nodes", SHOW),
     ),
     filter("lod", Content, "shows a simplified version", LOD),
     pictured("../movers/magnify.png", mover(filter("magnify", Content, "enlarges what is inside", MAGNIFY))),
@@ -63,7 +63,7 @@ pub const FILTERS: &[FilterRow] = &[
     filter("contours", Surface, "iso-lines of height or another quantity", CONTOURS),
     filter("toon", Surface, "light in a few flat steps", TOON),
     filter("hatch", Surface, "light as pen strokes", HATCH),
-    filter("edges", Screen, "silhouettes, creases and region borders", EDGES),
+    filter("edges", Screen, "silhouettes, creases, and borders of regions and of caps", EDGES),
     filter("blur", Screen, "blurs, to push context back", BLUR),
     filter("pixelate", Screen, "coarse pixels, to push context back", PIXELATE),
     pictured("../wgsl/stripes.png", filter("wgsl", Custom, "a filter of your own, in WGSL", WGSL)),
@@ -83,8 +83,9 @@ const ERASE: &[Param] = &[
     param("cap", Cap, Meaning("open"), "closes cut solids: in a colour, their own or hatched"),
 ];
 const SHOW: &[Param] = &[
-    param("alternate", Text, Meaning("give this or nodes"), "a name under [scene.alternates]"),
-    param("nodes", Patterns, Meaning("give this or alternate"), "exactly these nodes, hidden ones too"),
+    param("alternate", Text, Meaning("the scene, of which give nodes"), "a name under [scene.alternates]"),
+    param("nodes", Patterns, Meaning("all of the alternate"), "these nodes; of the scene hidden ones, too"),
+    param("materials", Patterns, Meaning("all of the alternate"), "of the alternate, what has these materials"),
 ];
 const LOD: &[Param] = &[param("ratio", Number(NumberRange::closed(0.001, 1.0)), Num(0.1), "of triangles kept")];
 const MAGNIFY: &[Param] = &[

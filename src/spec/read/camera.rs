@@ -17,8 +17,8 @@ pub fn read(item: &Item) -> Result<At<CameraSpec>, InputError> {
         Some(node) => of_node(&table, &node)?,
         None => free(&table)?,
     };
-    let near = clip(&table, "near", &place)?;
-    let far = clip(&table, "far", &place)?;
+    let near = clip(&table, "near", &place);
+    let far = clip(&table, "far", &place);
     if let (Some(near), Some(far)) = (&near, &far)
         && near.value >= far.value
     {
@@ -43,9 +43,9 @@ fn of_node(table: &Table, node: &Item) -> Result<CameraPlace, InputError> {
 }
 
 fn free(table: &Table) -> Result<CameraPlace, InputError> {
-    let eye = table.read("eye", Item::vector)?;
-    let target = table.read("target", Item::vector)?;
-    let up = table.read("up", Item::direction)?.unwrap_or([0.0, 1.0, 0.0]);
+    let eye = table.read("eye", Item::vector);
+    let target = table.read("target", Item::vector);
+    let up = table.get("up").map(|up| up.direction()).transpose()?.unwrap_or([0.0, 1.0, 0.0]);
     if let (Some(eye), Some(target)) = (eye, target) {
         check_view(table, eye, target, up)?;
     }
@@ -85,7 +85,7 @@ fn projection(table: &Table) -> Result<ProjectionSpec, InputError> {
 }
 
 /// A distance of the near or far plane; a perspective camera needs it in front of the eye.
-fn clip(table: &Table, key: &'static str, place: &CameraPlace) -> Result<Option<At<f64>>, InputError> {
+fn clip(table: &Table, key: &'static str, place: &CameraPlace) -> Option<At<f64>> {
     let perspective = matches!(place, CameraPlace::Free { projection: ProjectionSpec::FovY(_), .. });
     let range = if perspective { NumberRange::POSITIVE } else { NumberRange::ANY };
     table.read(key, |item| Ok(item.at(item.number(range)?)))

@@ -8,6 +8,7 @@ use super::item::{File, Item};
 use super::table::Table;
 use super::{camera, image, keys, later, lens, light, links, overlap, scene};
 use crate::InputError;
+use crate::limits::MAX_SPEC_BYTES;
 use crate::spec::{NumberRange, Source, Spec};
 
 impl Spec {
@@ -27,13 +28,27 @@ impl Spec {
 
     /// Reads a spec from its text. `name` stands for the file in messages; relative paths start at `folder`.
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Spec, InputError> {
-        let source = Source { name: name.to_owned(), text: text.into() };
+        if text.len() as u64 > MAX_SPEC_BYTES {
+            let message = format!("the spec {name} has {} bytes, and at most {MAX_SPEC_BYTES} can be", text.len());
+            return Err(InputError::new(message).help("long lists of points belong into a model: see the shape `mesh`"));
+        }
+        let source = Source::new(name, text);
         let document = DeTable::parse(text).map_err(|error| not_toml(&source, &error))?;
-        let file = File { source: &source, folder };
-        let table = Table::of_map(&file, "a spec", document.get_ref(), document.span(), keys::DOCUMENT)?;
-        let spec = read(&table, &source)?;
-        links::check(&spec)?;
-        Ok(spec)
+        let file = File::new(&source, folder);
+        let table = Table::of_map(&file, "a spec", document.get_ref(), document.span(), keys::DOCUMENT);
+        let spec = read(&table, &source);
+        let mut faults = file.into_faults();
+        match spec {
+            Ok(spec) => {
+                faults.finish()?;
+                links::check(&spec)?;
+                Ok(spec)
+            }
+            Err(error) => {
+                faults.note(error.clone());
+                Err(faults.finish().err().unwrap_or(error))
+            }
+        }
     }
 }
 
@@ -43,26 +58,23 @@ fn not_toml(source: &Source, error: &toml::de::Error) -> InputError {
 }
 
 fn read(table: &Table, source: &Source) -> Result<Spec, InputError> {
-    table.read("version", version)?;
-    table.read("animation", animation)?;
+    table.read("version", version);
+    table.read("animation", animation);
+    let camera = table.read("camera", camera::read);
+    let image = table.read("image", image::read).unwrap_or_default();
+    let light = table.read("light", light::read);
+    let lenses = each(table, "lens", lens::read);
+    let overlaps = each(table, "overlap", overlap::read);
     let scene = table.get("scene").ok_or_else(|| {
         InputError::at(source, 0..0, "a spec needs a [scene]").help("write [scene] and below it file = \"model.glb\"")
     })?;
-    Ok(Spec {
-        source: source.clone(),
-        scene: scene::read(&scene)?,
-        camera: table.read("camera", camera::read)?,
-        image: table.read("image", image::read)?.unwrap_or_default(),
-        light: table.read("light", light::read)?,
-        lenses: each(table, "lens", lens::read)?,
-        overlaps: each(table, "overlap", overlap::read)?,
-    })
+    Ok(Spec { source: source.clone(), scene: scene::read(&scene)?, camera, image, light, lenses, overlaps })
 }
 
 /// An array of tables, empty where the file has none.
-fn each<T>(table: &Table, key: &'static str, read: fn(&Item) -> Result<T, InputError>) -> Result<Vec<T>, InputError> {
+fn each<T>(table: &Table, key: &'static str, read: fn(&Item) -> Result<T, InputError>) -> Vec<T> {
     let wanted = format!("a list of tables, each under [[{key}]]");
-    table.read(key, |item| item.list(&wanted)?.iter().map(read).collect()).map(Option::unwrap_or_default)
+    table.read(key, |item| item.each(&wanted, read)).unwrap_or_default()
 }
 
 fn version(item: &Item) -> Result<(), InputError> {
@@ -77,8 +89,8 @@ fn version(item: &Item) -> Result<(), InputError> {
 /// A still does not depend on duration and fps; tracks would move it.
 fn animation(item: &Item) -> Result<(), InputError> {
     let table = Table::open(item, "[animation]", keys::ANIMATION)?;
-    table.read("duration", |item| item.number(NumberRange::POSITIVE))?;
-    table.read("fps", |item| item.number(NumberRange::POSITIVE))?;
+    table.read("duration", |item| item.number(NumberRange::POSITIVE));
+    table.read("fps", |item| item.number(NumberRange::POSITIVE));
     let Some(tracks) = table.get("track") else { return Ok(()) };
     let list = tracks.list("a list of tables, each under [[animation.track]]")?;
     list.iter().try_for_each(track)?;
@@ -91,7 +103,7 @@ fn animation(item: &Item) -> Result<(), InputError> {
 fn track(item: &Item) -> Result<(), InputError> {
     let table = Table::open(item, "[[animation.track]]", keys::TRACK)?;
     table.need("target")?.text()?;
-    table.read("ease", |item| item.choice(&[("linear", ()), ("smooth", ()), ("step", ())]))?;
+    table.read("ease", |item| item.choice(&[("linear", ()), ("smooth", ()), ("step", ())]));
     for key in table.need("keys")?.list("a list of [seconds, value]")? {
         let pair = key.list("a list of [seconds, value]")?;
         let [time, _] = pair.as_slice() else {

@@ -12,7 +12,7 @@ use super::{cap, color};
 use crate::InputError;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, NumberRange, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
+use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ enum Value {
 
 /// The filters of a lens or a rule, first to act first.
 pub fn list(item: &Item) -> Result<Vec<At<Filter>>, InputError> {
-    item.list("a list of filters, such as [\"wireframe\"]")?.iter().map(one).collect()
+    item.each("a list of filters, such as [\"wireframe\"]", one)
 }
 
 /// The filters of an overlap rule, which may not move content (SEMANTICS 4).
@@ -346,13 +346,17 @@ fn wireframe(params: &Params) -> Option<Filter> {
 
 fn show(params: &Params) -> Result<ShowWhat, InputError> {
     const REMEDY: &str = "write { show = { alternate = \"name\" } } or { show = { nodes = [\"name\"] } }";
-    match (params.text("alternate"), params.patterns("nodes")) {
-        (Some(alternate), None) => Ok(ShowWhat::Alternate(alternate)),
-        (None, Some(nodes)) => Ok(ShowWhat::Nodes(nodes)),
-        (None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
-        (Some(_), Some(_)) => {
-            Err(params.error("filter `show` takes `alternate` or `nodes`, not both".to_owned()).help(REMEDY))
+    let (nodes, materials) = (params.patterns("nodes"), params.patterns("materials"));
+    match (params.text("alternate"), nodes, materials) {
+        (Some(name), nodes, materials) => {
+            let only = Matches { nodes: nodes.unwrap_or_default(), materials: materials.unwrap_or_default() };
+            Ok(ShowWhat::Alternate { name, only })
         }
+        (None, Some(nodes), None) => Ok(ShowWhat::Nodes(nodes)),
+        (None, None, None) => Err(params.error("filter `show` needs `alternate` or `nodes`".to_owned()).help(REMEDY)),
+        (None, _, Some(_)) => Err(params
+            .error("`materials` of filter `show` needs an `alternate`".to_owned())
+            .help("of the scene it shows `nodes`; `only` limits the lens to materials")),
     }
 }
 

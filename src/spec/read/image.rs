@@ -12,10 +12,10 @@ pub fn read(item: &Item) -> Result<ImageSpec, InputError> {
     let table = Table::open(item, "[image]", keys::IMAGE)?;
     let default = ImageSpec::default();
     Ok(ImageSpec {
-        size: table.read("size", size)?.unwrap_or(default.size),
-        samples: table.read("samples", samples)?.unwrap_or(default.samples),
-        background: table.read("background", background)?.unwrap_or(default.background),
-        tone_mapping: table.read("tone_mapping", tone_mapping)?.unwrap_or(default.tone_mapping),
+        size: table.read("size", size).unwrap_or(default.size),
+        samples: table.read("samples", samples).unwrap_or(default.samples),
+        background: table.read("background", background).unwrap_or(default.background),
+        tone_mapping: table.read("tone_mapping", tone_mapping).unwrap_or(default.tone_mapping),
     })
 }
 

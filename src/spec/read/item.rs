@@ -1,5 +1,6 @@
 //! One value of the file with its place, and the plain kinds it can be read as.
 
+use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +9,7 @@ use toml::de::DeValue;
 
 use super::suggest;
 use crate::InputError;
+use crate::error::Faults;
 use crate::spec::{At, Pattern, Source};
 
 /// What every reader needs to know of the file.
@@ -15,6 +17,24 @@ pub struct File<'a> {
     pub source: &'a Source,
     /// Relative paths start here.
     pub folder: &'a Path,
+    /// What is wrong with values whose readers went on: see [`File::note`].
+    faults: RefCell<Faults>,
+}
+
+impl<'a> File<'a> {
+    pub fn new(source: &'a Source, folder: &'a Path) -> Self {
+        Self { source, folder, faults: RefCell::default() }
+    }
+
+    /// Keeps a fault for later, so that others are found, too. Whoever reads on with something in the value's place must
+    /// not complain of that: the file is refused in the end.
+    pub fn note(&self, error: InputError) {
+        self.faults.borrow_mut().note(error);
+    }
+
+    pub fn into_faults(self) -> Faults {
+        self.faults.into_inner()
+    }
 }
 
 /// A value, called by its key in messages.
@@ -84,7 +104,7 @@ impl<'a> Item<'a> {
     }
 
     pub fn patterns(&self) -> Result<Vec<At<Pattern>>, InputError> {
-        self.list("a list of names or patterns, such as [\"Bolt*\"]")?.iter().map(Item::pattern).collect()
+        self.each("a list of names or patterns, such as [\"Bolt*\"]", Item::pattern)
     }
 
     /// One of a few words.
@@ -101,6 +121,16 @@ impl<'a> Item<'a> {
                 Err(with_near(self.error(message), near))
             }
         }
+    }
+
+    /// What a reader makes of each element; faults are noted, and those elements left out.
+    pub fn each<T>(
+        &self,
+        wanted: &str,
+        read: impl Fn(&Item<'a>) -> Result<T, InputError>,
+    ) -> Result<Vec<T>, InputError> {
+        let read = |item: Item<'a>| read(&item).map_err(|error| self.file.note(error)).ok();
+        Ok(self.list(wanted)?.into_iter().filter_map(read).collect())
     }
 
     /// The elements, each called after its list.

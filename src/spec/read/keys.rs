@@ -1,5 +1,5 @@
 //! The keys of every table of the format but the filters', which the catalogue lists.
-//! The readers and the JSON Schema are held to these lists.
+//! The readers, the JSON Schema and the page of the format are held to these lists, and the page has them in this order.
 
 pub const DOCUMENT: &[&str] = &["version", "scene", "camera", "image", "light", "lens", "overlap", "animation"];
 pub const SCENE: &[&str] = &["file", "scene", "time", "hide", "backfaces", "alternates"];
@@ -34,22 +34,7 @@ pub const OVERLAP: &[&str] = &["when", "filters"];
 pub const ANIMATION: &[&str] = &["duration", "fps", "track"];
 pub const TRACK: &[&str] = &["target", "keys", "ease"];
 
-/// Shapes and their keys, in the order of the format's table.
-pub const SHAPES: &[(&str, &[&str])] = &[
-    ("sphere", SPHERE),
-    ("ellipsoid", ELLIPSOID),
-    ("box", BOX),
-    ("cylinder", CYLINDER),
-    ("cone", CONE),
-    ("capsule", CAPSULE),
-    ("polytope", POLYTOPE),
-    ("hull", HULL),
-    ("mesh", MESH),
-    ("flat", FLAT),
-    ("union", &[]),
-    ("intersection", &[]),
-    ("difference", &[]),
-];
+// Of the shapes.
 pub const SPHERE: &[&str] = &["center", "radius"];
 pub const ELLIPSOID: &[&str] = &["center", "radii", "rotation"];
 pub const BOX: &[&str] = &["center", "size", "rotation", "min", "max"];
@@ -59,4 +44,6 @@ pub const CAPSULE: &[&str] = &["from", "to", "radius"];
 pub const POLYTOPE: &[&str] = &["planes"];
 pub const HULL: &[&str] = &["points"];
 pub const MESH: &[&str] = &["file", "node", "convex"];
+pub const HALF_SPACE: &[&str] = &["point", "normal"];
+pub const SLAB: &[&str] = &["point", "normal", "thickness"];
 pub const FLAT: &[&str] = &["corners", "depth"];

@@ -6,31 +6,36 @@ use super::item::Item;
 use super::table::Table;
 use super::{filter, keys, shape};
 use crate::InputError;
+use crate::limits::MAX_NAME;
 use crate::spec::{At, Attach, By, Glass, LensSpec, Matches, NumberRange, OverlapMode, Pattern};
 
 pub fn read(item: &Item) -> Result<LensSpec, InputError> {
     let table = Table::open(item, "[[lens]]", keys::LENS)?;
     let name = name(&table.need("name")?)?;
     let table = table.called(format!("lens `{}`", name.value));
+    let shape = table.need("shape").and_then(|item| shape::read(&item));
+    let goes_on = shape.as_ref().is_ok_and(|shape| shape.value.is_half_space());
+    let glass_unless_given = (!goes_on).then(Glass::default);
     Ok(LensSpec {
         name,
-        enabled: table.read("enabled", Item::boolean)?.unwrap_or(true),
-        shape: shape::read(&table.need("shape")?)?,
-        attach: table.read("attach", attach)?.unwrap_or(At::new(Attach::Scene, table.span.clone())),
-        translation: table.read("translation", Item::vector)?.unwrap_or_default(),
-        rotation: table.read("rotation", Item::rotation)?.unwrap_or_default(),
-        scale: table.read("scale", scale)?.unwrap_or([1.0; 3]),
-        filters: table.read("filters", filter::list)?.unwrap_or_default(),
-        over: patterns(&table, "over")?,
-        under: patterns(&table, "under")?,
-        hides: patterns(&table, "hides")?,
-        overlap: table.read("overlap", overlap)?.unwrap_or(OverlapMode::Stack),
-        priority: table.read("priority", |item| item.integer(i64::MIN, i64::MAX))?.unwrap_or(0),
-        by: table.read("by", |item| item.choice(&[("pixel", By::Pixel), ("object", By::Object)]))?.unwrap_or(By::Pixel),
-        only: table.read("only", matches)?.unwrap_or_default(),
-        except: table.read("except", matches)?.unwrap_or_default(),
-        soft: table.read("soft", |item| item.number(NumberRange::NOT_NEGATIVE))?.unwrap_or(0.0),
-        glass: table.read("glass", glass)?.unwrap_or(Some(Glass::default())),
+        enabled: table.read("enabled", Item::boolean).unwrap_or(true),
+        attach: table.read("attach", attach).unwrap_or(At::new(Attach::Scene, table.span.clone())),
+        translation: table.read("translation", Item::vector).unwrap_or_default(),
+        rotation: table.read("rotation", Item::rotation).unwrap_or_default(),
+        scale: table.read("scale", scale).unwrap_or([1.0; 3]),
+        filters: table.read("filters", filter::list).unwrap_or_default(),
+        over: patterns(&table, "over"),
+        under: patterns(&table, "under"),
+        hides: patterns(&table, "hides"),
+        overlap: table.read("overlap", overlap).unwrap_or(OverlapMode::Stack),
+        priority: table.read("priority", |item| item.integer(i64::MIN, i64::MAX)).unwrap_or(0),
+        by: table.read("by", |item| item.choice(&[("pixel", By::Pixel), ("object", By::Object)])).unwrap_or(By::Pixel),
+        only: table.read("only", matches).unwrap_or_default(),
+        except: table.read("except", matches).unwrap_or_default(),
+        soft: table.read("soft", |item| item.number(NumberRange::NOT_NEGATIVE)).unwrap_or(0.0),
+        glass: table.read("glass", glass).unwrap_or(glass_unless_given),
+        // When all else has been looked at.
+        shape: shape?,
     })
 }
 
@@ -41,6 +46,11 @@ pub fn is_name_char(c: char) -> bool {
 
 fn name(item: &Item) -> Result<At<String>, InputError> {
     let text = item.text()?;
+    if text.len() > MAX_NAME {
+        let message =
+            format!("a lens name has at most {MAX_NAME} characters, and this one has {}", text.chars().count());
+        return Err(item.error(message).help("give it a shorter name"));
+    }
     match text.chars().find(|c| !is_name_char(*c)) {
         None => Ok(item.at(text.to_owned())),
         Some(c) => Err(item
@@ -49,9 +59,9 @@ fn name(item: &Item) -> Result<At<String>, InputError> {
     }
 }
 
-fn patterns(table: &Table, key: &'static str) -> Result<Vec<At<Pattern>>, InputError> {
+fn patterns(table: &Table, key: &'static str) -> Vec<At<Pattern>> {
     let wanted = "a list of lens names or patterns, such as [\"probe\", \"cut-*\"]";
-    table.read(key, |item| item.list(wanted)?.iter().map(Item::pattern).collect()).map(Option::unwrap_or_default)
+    table.read(key, |item| item.each(wanted, Item::pattern)).unwrap_or_default()
 }
 
 fn overlap(item: &Item) -> Result<OverlapMode, InputError> {
@@ -93,8 +103,8 @@ fn scale(item: &Item) -> Result<[f64; 3], InputError> {
 fn matches(item: &Item) -> Result<Matches, InputError> {
     let table = Table::open(item, format!("`{}`", item.name), keys::MATCHES)?;
     Ok(Matches {
-        nodes: table.read("nodes", Item::patterns)?.unwrap_or_default(),
-        materials: table.read("materials", Item::patterns)?.unwrap_or_default(),
+        nodes: table.read("nodes", Item::patterns).unwrap_or_default(),
+        materials: table.read("materials", Item::patterns).unwrap_or_default(),
     })
 }
 
@@ -113,10 +123,10 @@ fn glass(item: &Item) -> Result<Option<Glass>, InputError> {
     let number = |key, range| table.read(key, |item: &Item| item.number32(range));
     let width = NumberRange::closed(0.0, 1000.0);
     Ok(Some(Glass {
-        color: table.read("color", Item::color)?.unwrap_or(default.color),
-        opacity: number("opacity", NumberRange::UNIT)?.unwrap_or(default.opacity),
-        rim: number("rim", NumberRange::UNIT)?.unwrap_or(default.rim),
-        outline: number("outline", width)?.unwrap_or(default.outline),
-        contact: number("contact", width)?.unwrap_or(default.contact),
+        color: table.read("color", Item::color).unwrap_or(default.color),
+        opacity: number("opacity", NumberRange::UNIT).unwrap_or(default.opacity),
+        rim: number("rim", NumberRange::UNIT).unwrap_or(default.rim),
+        outline: number("outline", width).unwrap_or(default.outline),
+        contact: number("contact", width).unwrap_or(default.contact),
     }))
 }

@@ -9,8 +9,8 @@ use crate::spec::{Color, DirectionalSpec, LightSpec, NumberRange};
 pub fn read(item: &Item) -> Result<LightSpec, InputError> {
     let table = Table::open(item, "[light]", keys::LIGHT)?;
     Ok(LightSpec {
-        ambient: table.read("ambient", brightness)?.unwrap_or(0.0),
-        directional: table.read("directional", directionals)?.unwrap_or_default(),
+        ambient: table.read("ambient", brightness).unwrap_or(0.0),
+        directional: table.read("directional", directionals).unwrap_or_default(),
     })
 }
 
@@ -19,14 +19,14 @@ fn brightness(item: &Item) -> Result<f32, InputError> {
 }
 
 fn directionals(item: &Item) -> Result<Vec<DirectionalSpec>, InputError> {
-    item.list("a list of lights, each under [[light.directional]]")?.iter().map(directional).collect()
+    item.each("a list of lights, each under [[light.directional]]", directional)
 }
 
 fn directional(item: &Item) -> Result<DirectionalSpec, InputError> {
     let table = Table::open(item, "[[light.directional]]", keys::DIRECTIONAL)?;
     Ok(DirectionalSpec {
         direction: table.need("direction")?.direction()?,
-        color: table.read("color", Item::opaque_color)?.unwrap_or(Color::rgb(255, 255, 255)),
-        intensity: table.read("intensity", brightness)?.unwrap_or(1.0),
+        color: table.read("color", Item::opaque_color).unwrap_or(Color::rgb(255, 255, 255)),
+        intensity: table.read("intensity", brightness).unwrap_or(1.0),
     })
 }

@@ -4,31 +4,44 @@ use std::collections::HashMap;
 
 use super::suggest;
 use crate::InputError;
-use crate::lens::{MAX_LENSES, MAX_PARTS, MAX_RULES};
-use crate::spec::{At, Condition, Filter, LensSpec, Pattern, ShowWhat, Source, Spec};
+use crate::error::Faults;
+use crate::limits::{MAX_LENSES, MAX_PARTS, MAX_PLANES, MAX_RULES, MAX_WRITTEN_LENSES};
+use crate::spec::{At, Condition, Filter, LensSpec, Names, Pattern, Shape, ShowWhat, Source, Spec};
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
-    let links = Links { source: &spec.source, spec };
-    links.count()?;
-    links.count_rules()?;
-    links.count_parts()?;
-    links.unique_names()?;
-    for lens in &spec.lenses {
-        links.lens(lens)?;
+    let names = Names::new(spec.lenses.iter().map(|lens| lens.name.value.as_str()));
+    let links = Links { source: &spec.source, spec, names };
+    // Of too many nothing else is looked at.
+    links.count_written()?;
+    let mut faults = Faults::default();
+    for counted in [links.count(), links.count_rules(), links.count_parts(), links.count_planes()] {
+        faults.take(counted);
     }
+    links.unique_names(&mut faults);
+    spec.lenses.iter().for_each(|lens| links.lens(lens, &mut faults));
     for rule in &spec.overlaps {
-        links.condition(&rule.when.value)?;
-        links.filters(&rule.filters)?;
+        links.condition(&rule.when.value, &mut faults);
+        links.filters(&rule.filters, &mut faults);
     }
-    Ok(())
+    faults.finish()
 }
 
 struct Links<'a> {
     source: &'a Source,
     spec: &'a Spec,
+    /// Of all lenses.
+    names: Names<'a>,
 }
 
 impl Links<'_> {
+    fn count_written(&self) -> Result<(), InputError> {
+        let Some(first_too_many) = self.spec.lenses.get(MAX_WRITTEN_LENSES) else { return Ok(()) };
+        let count = self.spec.lenses.len();
+        let message =
+            format!("the file has {count} lenses, and at most {MAX_WRITTEN_LENSES} can be, disabled ones included");
+        Err(self.error(&first_too_many.name, message).help("leave out what is never enabled"))
+    }
+
     fn count(&self) -> Result<(), InputError> {
         let enabled = || self.spec.lenses.iter().filter(|lens| lens.enabled);
         let Some(first_too_many) = enabled().nth(MAX_LENSES) else { return Ok(()) };
@@ -51,66 +64,84 @@ impl Links<'_> {
         Err(self.error(first_too_many, message).help("a hull or a mesh is one part, however many faces it has"))
     }
 
-    fn unique_names(&self) -> Result<(), InputError> {
-        let mut seen: HashMap<&str, &At<String>> = HashMap::new();
-        for lens in &self.spec.lenses {
-            if let Some(first) = seen.insert(&lens.name.value, &lens.name) {
-                return Err(self
-                    .error(&lens.name, format!("there are two lenses named `{}`", lens.name.value))
-                    .label(first.span.clone(), "the first is here")
-                    .help("rename one of them"));
-            }
+    /// All planes of polytopes and corners of flat lenses.
+    fn count_planes(&self) -> Result<(), InputError> {
+        let enabled = self.spec.lenses.iter().filter(|lens| lens.enabled);
+        let mut count = 0;
+        let mut first_too_many = None;
+        for part in enabled.flat_map(|lens| lens.shape.parts()) {
+            count += match &part.value {
+                Shape::Polytope { planes } => planes.len(),
+                Shape::Flat { corners, .. } => corners.len(),
+                _ => 0,
+            };
+            first_too_many = first_too_many.or((count > MAX_PLANES).then_some(part));
         }
-        Ok(())
+        let Some(part) = first_too_many else { return Ok(()) };
+        let message = format!(
+            "the enabled lenses have {count} planes of polytopes and corners of flat lenses, and at most {MAX_PLANES} can be"
+        );
+        Err(self.error(part, message).help("a `hull` or a `mesh` may have any number of faces"))
     }
 
-    fn lens(&self, lens: &LensSpec) -> Result<(), InputError> {
+    fn unique_names(&self, faults: &mut Faults) {
+        let mut seen: HashMap<&str, &At<String>> = HashMap::new();
+        for lens in &self.spec.lenses {
+            if let Some(first) = seen.get(lens.name.value.as_str()) {
+                let message = format!("there are two lenses named `{}`", lens.name.value);
+                let error = self.error(&lens.name, message).label(first.span.clone(), "the first is here");
+                faults.note(error.help("rename one of them"));
+            }
+            seen.entry(&lens.name.value).or_insert(&lens.name);
+        }
+    }
+
+    fn lens(&self, lens: &LensSpec, faults: &mut Faults) {
         for (key, patterns) in [("over", &lens.over), ("under", &lens.under), ("hides", &lens.hides)] {
             for pattern in patterns {
-                self.other_lens(lens, key, pattern)?;
+                faults.take(self.other_lens(lens, key, pattern));
             }
         }
-        self.filters(&lens.filters)
+        self.filters(&lens.filters, faults);
     }
 
     /// An edge must lead to a lens other than its own (SEMANTICS 3.1).
     fn other_lens(&self, lens: &LensSpec, key: &str, pattern: &At<Pattern>) -> Result<(), InputError> {
         let name = &lens.name.value;
-        let others = self.spec.lenses.iter().map(|other| other.name.value.as_str()).filter(|other| other != name);
-        if others.clone().any(|other| pattern.value.matches(other)) {
+        let matches_itself = pattern.value.matches(name);
+        // Names are unique, so what matches more than once matches another.
+        if self.names.count(&pattern.value, 2) > usize::from(matches_itself) {
             return Ok(());
         }
-        if !pattern.value.matches(name) {
+        if !matches_itself {
+            let others = self.names.iter().filter(|other| other != name);
             return Err(self.no_match(&format!("`{key}` of lens `{name}` names"), pattern, others));
         }
         let message = format!("`{key}` of lens `{name}` names no lens but itself: \"{}\"", pattern.value);
         Err(self.error(pattern, message).help("name another lens, or leave it out"))
     }
 
-    fn condition(&self, condition: &Condition) -> Result<(), InputError> {
+    fn condition(&self, condition: &Condition, faults: &mut Faults) {
         match condition {
             Condition::Lens(pattern) => {
-                let names = self.spec.lenses.iter().map(|lens| lens.name.value.as_str());
-                match names.clone().any(|name| pattern.value.matches(name)) {
-                    true => Ok(()),
-                    false => Err(self.no_match("`when` names", pattern, names)),
+                if !self.names.any(&pattern.value) {
+                    faults.note(self.no_match("`when` names", pattern, self.names.iter()));
                 }
             }
-            Condition::Not(inner) => self.condition(inner),
+            Condition::Not(inner) => self.condition(inner, faults),
             Condition::And(left, right) | Condition::Or(left, right) => {
-                self.condition(left)?;
-                self.condition(right)
+                self.condition(left, faults);
+                self.condition(right, faults);
             }
         }
     }
 
-    fn filters(&self, filters: &[At<Filter>]) -> Result<(), InputError> {
+    fn filters(&self, filters: &[At<Filter>], faults: &mut Faults) {
         for filter in filters {
-            if let Filter::Show(ShowWhat::Alternate(alternate)) = &filter.value {
-                self.alternate(alternate)?;
+            if let Filter::Show(ShowWhat::Alternate { name, .. }) = &filter.value {
+                faults.take(self.alternate(name));
             }
         }
-        Ok(())
     }
 
     fn alternate(&self, wanted: &At<String>) -> Result<(), InputError> {

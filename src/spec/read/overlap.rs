@@ -8,8 +8,14 @@ use crate::spec::OverlapSpec;
 
 pub fn read(item: &Item) -> Result<OverlapSpec, InputError> {
     let table = Table::open(item, "[[overlap]]", keys::OVERLAP)?;
-    Ok(OverlapSpec {
-        when: condition::read(&table.need("when")?)?,
-        filters: filter::list_that_stays(&table.need("filters")?)?,
-    })
+    let filters = table.need("filters").and_then(|filters| filter::list_that_stays(&filters));
+    let when = table.need("when").and_then(|when| condition::read(&when));
+    match (when, filters) {
+        (Ok(when), Ok(filters)) => Ok(OverlapSpec { when, filters }),
+        (Err(error), Err(other)) => {
+            item.file.note(other);
+            Err(error)
+        }
+        (Err(error), _) | (_, Err(error)) => Err(error),
+    }
 }

@@ -14,11 +14,11 @@ pub fn read(item: &Item) -> Result<SceneSpec, InputError> {
     let table = Table::open(item, "[scene]", keys::SCENE)?;
     Ok(SceneSpec {
         file: table.need("file")?.path()?,
-        scene: table.read("scene", choice)?,
-        time: table.read("time", time)?,
-        hide: table.read("hide", Item::patterns)?.unwrap_or_default(),
-        backfaces: table.read("backfaces", backfaces)?.unwrap_or_default(),
-        alternates: table.read("alternates", alternates)?.unwrap_or_default(),
+        scene: table.read("scene", choice),
+        time: table.read("time", time),
+        hide: table.read("hide", Item::patterns).unwrap_or_default(),
+        backfaces: table.read("backfaces", backfaces).unwrap_or_default(),
+        alternates: table.read("alternates", alternates).unwrap_or_default(),
     })
 }
 

@@ -5,6 +5,7 @@ use super::number::{difference, length};
 use super::table::{Table, only_entry};
 use super::{keys, suggest};
 use crate::InputError;
+use crate::spec::catalogue::SHAPES;
 use crate::spec::range::SMALLEST_SIZE;
 use crate::spec::{At, Convex, MeshShape, NumberRange, Rotation, Shape};
 
@@ -28,13 +29,15 @@ fn nested(item: &Item, depth: usize) -> Result<At<Shape>, InputError> {
         "capsule" => capsule(&open(&inner, keys::CAPSULE)?),
         "polytope" => polytope(&open(&inner, keys::POLYTOPE)?),
         "hull" => hull(&open(&inner, keys::HULL)?),
+        "halfspace" => half_space(&open(&inner, keys::HALF_SPACE)?),
+        "slab" => slab(&open(&inner, keys::SLAB)?),
         "flat" => flat(&open(&inner, keys::FLAT)?),
         "mesh" => mesh(&open(&inner, keys::MESH)?),
         "union" => list(&inner, depth).map(Shape::Union),
         "intersection" => list(&inner, depth).map(Shape::Intersection),
         "difference" => list(&inner, depth).map(Shape::Difference),
         other => {
-            let names = keys::SHAPES.iter().map(|(name, _)| *name);
+            let names = SHAPES.iter().map(|row| row.name);
             Err(inner.error_at_key(format!("there is no shape `{other}`")).help(suggest::help(other, names)))
         }
     }?;
@@ -62,7 +65,7 @@ fn ellipsoid(table: &Table) -> Result<Shape, InputError> {
 }
 
 fn rotation(table: &Table) -> Result<Rotation, InputError> {
-    Ok(table.read("rotation", Item::rotation)?.unwrap_or_default())
+    Ok(table.read("rotation", Item::rotation).unwrap_or_default())
 }
 
 fn cuboid(table: &Table) -> Result<Shape, InputError> {
@@ -162,10 +165,34 @@ fn hull(table: &Table) -> Result<Shape, InputError> {
     Ok(Shape::Hull { points: table.need("points")?.points(4)? })
 }
 
+fn half_space(table: &Table) -> Result<Shape, InputError> {
+    Ok(Shape::HalfSpace { point: table.need("point")?.vector()?, normal: normal(table)? })
+}
+
+fn slab(table: &Table) -> Result<Shape, InputError> {
+    Ok(Shape::Slab {
+        point: table.need("point")?.vector()?,
+        normal: normal(table)?,
+        thickness: size(table, "thickness")?,
+    })
+}
+
+/// A direction, of any length but zero.
+fn normal(table: &Table) -> Result<[f64; 3], InputError> {
+    let item = table.need("normal")?;
+    let normal = item.vector()?;
+    if length(normal) < SMALLEST_SIZE {
+        return Err(item
+            .error(format!("`normal` of {} has length zero", table.name))
+            .help("it must point somewhere, such as [0, 1, 0]"));
+    }
+    Ok(normal)
+}
+
 fn flat(table: &Table) -> Result<Shape, InputError> {
     Ok(Shape::Flat {
         corners: table.need("corners")?.points(3)?,
-        depth: table.read("depth", |item| item.number(NumberRange::POSITIVE))?,
+        depth: table.read("depth", |item| item.number(NumberRange::POSITIVE)),
     })
 }
 
@@ -173,8 +200,8 @@ fn mesh(table: &Table) -> Result<Shape, InputError> {
     let convex = |item: &Item| item.choice(&[("hull", Convex::Hull), ("decompose", Convex::Decompose)]);
     Ok(Shape::Mesh(MeshShape {
         file: table.need("file")?.path()?,
-        node: table.read("node", |item| Ok(item.at(item.text()?.to_owned())))?,
-        convex: table.read("convex", convex)?.unwrap_or(Convex::AsItStands),
+        node: table.read("node", |item| Ok(item.at(item.text()?.to_owned()))),
+        convex: table.read("convex", convex).unwrap_or(Convex::AsItStands),
     }))
 }
 

@@ -1,4 +1,4 @@
-//! A table whose keys are known: unknown ones are refused as it is opened, missing ones as they are asked for.
+//! A table whose keys are known: unknown ones are noted as it is opened, missing ones refused as they are asked for.
 
 use std::ops::Range;
 
@@ -15,15 +15,17 @@ pub struct Table<'a> {
     map: &'a DeTable<'a>,
     keys: &'static [&'static str],
     pub span: Range<usize>,
+    /// A key that is not among those: what is missing may have been meant by it.
+    unknown: Option<InputError>,
 }
 
 impl<'a> Table<'a> {
-    /// Takes a table and refuses keys that are not in `keys`.
+    /// Takes a table and notes keys that are not in `keys`.
     pub fn open(item: &Item<'a>, name: impl Into<String>, keys: &'static [&'static str]) -> Result<Self, InputError> {
         let DeValue::Table(map) = item.value else {
             return Err(item.wrong_type(&format!("a table with {}", suggest::listed(keys.iter().copied()))));
         };
-        Self::of_map(item.file, name, map, item.span.clone(), keys)
+        Ok(Self::of_map(item.file, name, map, item.span.clone(), keys))
     }
 
     pub fn of_map(
@@ -32,12 +34,13 @@ impl<'a> Table<'a> {
         map: &'a DeTable<'a>,
         span: Range<usize>,
         keys: &'static [&'static str],
-    ) -> Result<Self, InputError> {
-        let table = Self { file, name: name.into(), map, keys, span };
-        match entries(map).into_iter().find(|(key, _, _)| !keys.contains(key)) {
-            None => Ok(table),
-            Some((key, span, _)) => Err(table.unknown(key, span)),
-        }
+    ) -> Self {
+        let mut table = Self { file, name: name.into(), map, keys, span, unknown: None };
+        let unknown = entries(map).into_iter().filter(|(key, _, _)| !keys.contains(key));
+        let unknown: Vec<InputError> = unknown.map(|(key, span, _)| table.unknown(key, span)).collect();
+        table.unknown = unknown.first().cloned();
+        unknown.into_iter().for_each(|error| file.note(error));
+        table
     }
 
     /// The same table under a better name, once that is known.
@@ -57,16 +60,13 @@ impl<'a> Table<'a> {
     }
 
     pub fn need(&self, key: &'static str) -> Result<Item<'a>, InputError> {
-        self.get(key).ok_or_else(|| self.error(format!("{} needs `{key}`", self.name)))
+        let missing = || self.error(format!("{} needs `{key}`", self.name));
+        self.get(key).ok_or_else(|| self.unknown.clone().unwrap_or_else(missing))
     }
 
-    /// Reads a key if it is there.
-    pub fn read<T>(
-        &self,
-        key: &'static str,
-        read: impl FnOnce(&Item<'a>) -> Result<T, InputError>,
-    ) -> Result<Option<T>, InputError> {
-        self.get(key).map(|item| read(&item)).transpose()
+    /// Reads a key if it is there. What is wrong with it is noted, and the key taken as left out.
+    pub fn read<T>(&self, key: &'static str, read: impl FnOnce(&Item<'a>) -> Result<T, InputError>) -> Option<T> {
+        self.get(key).and_then(|item| read(&item).map_err(|error| self.file.note(error)).ok())
     }
 
     pub fn error(&self, message: impl Into<String>) -> InputError {

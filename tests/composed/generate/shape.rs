@@ -36,7 +36,7 @@ pub fn simple(random: &mut Random) -> Shape {
     let radius = tidy(random.between(0.25, 0.8));
     let to = rounded(center + direction(random) * random.between(0.3, 1.2));
     let three = |random: &mut Random| rounded(DVec3::from_array(std::array::from_fn(|_| random.between(0.25, 0.8))));
-    match random.index(10) {
+    match random.index(11) {
         0 => Shape::Sphere { center, radius },
         1 => Shape::Ellipsoid { center, radii: three(random), rotation: rotation(random) },
         2 | 3 => Shape::Box { center, size: rounded(2.0 * three(random)), rotation: rotation(random) },
@@ -49,6 +49,10 @@ pub fn simple(random: &mut Random) -> Shape {
         6 => Shape::Capsule { from: center, to: if random.chance(0.2) { center } else { to }, radius: 0.6 * radius },
         7 => polytope(random),
         8 => Shape::Hull((0..5 + random.index(4)).map(|_| rounded(center + point(random, 0.7))).collect()),
+        9 => {
+            let normal = rounded(direction(random) * random.between(0.5, 2.0));
+            Shape::Plane { point: center, normal, thickness: random.chance(0.5).then_some(radius) }
+        }
         _ => flat(center, random),
     }
 }

@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3};
 use super::look::{DOUBT, Hit, Stage, Surface};
 use super::place;
 use super::view::Ray;
-use super::walk::{Act, Actor, Closed, Met, Outcome, SAME};
+use super::walk::{Act, Actor, Closed, Met, Outcome, SAME, Stack};
 use crate::case::{Cap, Filter};
 
 /// A solid node as it may be shown.
@@ -161,8 +161,10 @@ impl Body {
         let primitive = |subject: usize| {
             let walk = |depth: f64| stage.composition.walk(&stage.subjects[subject], ray.at(depth));
             match [walk(depth - near), walk(depth + near)] {
-                [Outcome::Shown(shown), Outcome::Erased(met, closed)] => self.closed(&shown, &met, closed, &met),
-                [Outcome::Erased(met, closed), Outcome::Shown(shown)] => self.closed(&shown, &met, closed, &shown),
+                [Outcome::Shown(shown), Outcome::Erased(met, closed)] => self.closed(stage, &shown, &met, closed, &met),
+                [Outcome::Erased(met, closed), Outcome::Shown(shown)] => {
+                    self.closed(stage, &shown, &met, closed, &shown)
+                }
                 [Outcome::Open, _] | [_, Outcome::Open] => Cut::Open,
                 _ => Cut::No,
             }
@@ -190,12 +192,20 @@ impl Body {
     }
 
     /// The cap where this is shown on one side and erased on the other; it lies in the region `behind` it.
-    fn closed(&self, shown: &Met, erased: &Met, closed: Closed, behind: &Met) -> Cut {
+    fn closed(&self, stage: &Stage, shown: &Met, erased: &Met, closed: Closed, behind: &Met) -> Cut {
         match closed {
             _ if shown.moves != self.moves || erased.moves != self.moves => Cut::No,
             Closed::Not => Cut::No,
-            Closed::By(by, look) => Cut::Cap(by, look, behind.clone()),
+            Closed::By(by, look) => Cut::Cap(by, look, without_lower(stage, behind, by)),
             Closed::Open => Cut::Open,
         }
     }
+}
+
+/// What lenses below the one that makes a cap do, they do not do to it; a rule is above all.
+fn without_lower(stage: &Stage, behind: &Met, by: Actor) -> Met {
+    let Stack::Lenses(lenses) = &behind.stack else { return behind.clone() };
+    let place = |lens: usize| stage.composition.order.iter().position(|other| *other == lens);
+    let stays = |lens: &usize| matches!(by, Actor::Lens(maker) if place(*lens) >= place(maker));
+    Met { stack: Stack::Lenses(lenses.iter().copied().filter(stays).collect()), ..behind.clone() }
 }

@@ -78,6 +78,14 @@ pub fn solid(case: &Case, shape: &Shape) -> (Solid, DVec3) {
             (Solid::Planes(planes), center)
         }
         Shape::Hull(points) => (Solid::Planes(hull(points)), middle(points.iter().copied())),
+        Shape::Plane { point, normal, thickness } => {
+            let n = normal.normalize();
+            let planes = match thickness {
+                None => vec![(n, n.dot(*point))],
+                Some(t) => vec![(n, n.dot(*point) + 0.5 * t), (-n, 0.5 * t - n.dot(*point))],
+            };
+            (Solid::Planes(planes), *point)
+        }
         Shape::Flat { corners, depth } => {
             let mean = corners.iter().sum::<DVec3>() / corners.len() as f64;
             (Solid::Flat { corners: corners.clone(), depth: *depth }, mean)

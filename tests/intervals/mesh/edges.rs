@@ -111,3 +111,30 @@ fn two_cubes_that_touch_are_one_solid() {
         assert!(found.len() == wanted.len() && found.iter().zip(&wanted).all(near), "{by}: {found:?}");
     }
 }
+
+/// What two cubes have together, whichever way each faces; one wholly inside the other that faces the other way is a hole.
+#[test]
+fn solids_that_overlap_unite_and_what_faces_inwards_is_a_hole() {
+    let at = |center: DVec3, half: f64| cube().into_iter().map(move |t| t.map(|p| center + p * half));
+    let turned = |t: Triangle| [t[0], t[2], t[1]];
+    let ray = Ray { origin: DVec3::new(-5.0, 0.03, 0.1), direction: DVec3::X };
+    let small = || at(DVec3::new(0.1, 0.0, 0.0), 0.5);
+    let beside = || at(DVec3::new(1.0, 0.2, 0.1), 1.0);
+    let all = |own: Vec<Triangle>| cube().into_iter().chain(own).collect::<Vec<_>>();
+    for (triangles, wanted) in [
+        (all(beside().collect()), vec![[4.0, 7.0]]),
+        (all(beside().map(turned).collect()), vec![[4.0, 7.0]]),
+        (all(small().collect()), vec![[4.0, 6.0]]),
+        (all(small().map(turned).collect()), vec![[4.0, 4.6], [5.6, 6.0]]),
+        (all(small().map(turned).collect()).into_iter().map(turned).collect(), vec![[4.0, 4.6], [5.6, 6.0]]),
+    ] {
+        let volume = placed(&triangles, Convex::Decompose, &unmoved());
+        let found: Vec<[f64; 2]> = intervals(&volume, &ray, 0.0, 20.0).iter().map(|i| [i.entry, i.exit]).collect();
+        let near = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < 1e-5;
+        assert!(found.len() == wanted.len() && found.iter().zip(&wanted).all(near), "{found:?}, not {wanted:?}");
+        for depth in [4.3, 5.1, 5.8, 6.5] {
+            let is_in = wanted.iter().any(|[entry, exit]| *entry < depth && depth < *exit);
+            assert_eq!(volume.contains(ray.at(depth)), is_in, "at {depth}");
+        }
+    }
+}

@@ -32,6 +32,7 @@ pub fn model(triangles: &[Triangle]) -> Model {
         camera: None,
         light: None,
         drawn: true,
+        hidden: false,
     };
     let mesh = Mesh { name: "solid".into(), primitives: vec![primitive] };
     Model { name: "test.glb".into(), nodes: vec![node], meshes: vec![mesh], ..Model::default() }

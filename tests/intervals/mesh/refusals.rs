@@ -1,11 +1,13 @@
 //! Meshes that are not what they must be.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use lenspeel::lens::MeshForm;
 use lenspeel::spec::Convex;
 
 use super::{bowl, cube, model, torus};
-use crate::facets::Triangle;
+use crate::facets::{Triangle, lathe};
 
 fn refusal(triangles: &[Triangle], convex: Convex) -> String {
     MeshForm::new(&model(triangles), None, convex).map(drop).expect_err("this mesh must be refused").to_string()
@@ -37,4 +39,25 @@ fn an_open_mesh_and_one_that_is_not_convex_are_refused() {
     assert!(MeshForm::new(&model(&capped(-1e-4)), None, Convex::AsItStands).is_ok(), "less than a ten-thousandth");
     assert!(refusal(&capped(-1e-3), Convex::AsItStands).contains("at (0, 0, 0.999) its surface lies 0.001 inside"));
     assert!(refusal(&[], Convex::Hull).contains("no triangles"));
+}
+
+/// One of so many faces is told by its own planes: as it stands, with a dent as large as is allowed, and with a larger one.
+#[test]
+fn a_fine_ball_is_convex_and_a_dented_one_is_not() {
+    let profile: Vec<(f64, f64)> = (0..=120)
+        .map(|i| {
+            let angle = PI * f64::from(i) / 120.0;
+            (if i % 120 == 0 { 0.0 } else { angle.sin() }, -angle.cos())
+        })
+        .collect();
+    let ball: Vec<Triangle> = lathe(&profile).into_iter().map(|t| t.map(|p| p.as_vec3().as_dvec3())).collect();
+    assert!(ball.len() > 4096, "{} triangles are not many", ball.len());
+    let dented = |by: f64| -> Vec<Triangle> {
+        let at = ball[ball.len() / 2][0];
+        ball.iter().map(|t| t.map(|p| if p == at { p * (1.0 - by) } else { p })).collect()
+    };
+    for (by, is_convex) in [(0.0, true), (1e-5, true), (2e-3, false)] {
+        let found = MeshForm::new(&model(&dented(by)), None, Convex::AsItStands);
+        assert_eq!(found.is_ok(), is_convex, "{by}: {:?}", found.err().map(|e| e.to_string()));
+    }
 }

@@ -1,26 +1,97 @@
 //! `lenspeel info MODEL`: what is in a model, for people.
 
+mod json;
+mod nodes;
+
+use std::borrow::Cow;
 use std::fmt::Write;
 
 use glam::DVec3;
 
+use super::args::InfoArgs;
 use crate::scene::{Aabb, AlphaMode, Animation, Camera, LightKind, Material, Mesh, Model};
+use crate::spec::Pattern;
+use crate::{InputError, printable};
 
-/// Longest run of siblings that is listed one by one.
-const MAX_SIBLINGS: usize = 40;
-/// Of a longer run, this many are listed before the rest is counted.
-const SHOWN_SIBLINGS: usize = 10;
+pub use json::info_json;
 
-/// Everything worth knowing about a model, as aligned text.
-pub fn info_text(model: &Model) -> String {
-    let mut out = format!("{}\n", model.name);
+/// Cells that are longer do not widen their column.
+const WIDEST: usize = 48;
+
+/// How much of a model is listed.
+#[derive(Debug, Clone, Default)]
+pub struct InfoChoice {
+    /// Each node and each name whole, instead of groups of siblings with like names.
+    pub all: bool,
+    /// Only nodes and materials that one of these matches; empty: no limit.
+    pub patterns: Vec<Pattern>,
+}
+
+impl InfoChoice {
+    fn is_limited(&self) -> bool {
+        !self.patterns.is_empty()
+    }
+
+    fn has_name(&self, name: &str) -> bool {
+        !self.is_limited() || self.patterns.iter().any(|pattern| pattern.matches(name))
+    }
+
+    /// For each node whether it is listed: its own name or an ancestor's counts, as in a spec.
+    fn nodes(&self, model: &Model) -> Vec<bool> {
+        let mut is_in = vec![false; model.nodes.len()];
+        let mut open: Vec<usize> = (0..model.nodes.len()).filter(|n| model.nodes[*n].parent.is_none()).collect();
+        while let Some(node) = open.pop() {
+            let above = model.nodes[node].parent.is_some_and(|parent| is_in[parent]);
+            is_in[node] = above || self.has_name(&model.nodes[node].name);
+            open.extend(&model.nodes[node].children);
+        }
+        is_in
+    }
+
+    /// A name as it is listed, or that there is none.
+    fn shown<'a>(&self, name: &'a str) -> Cow<'a, str> {
+        match name {
+            "" => "(no name)".into(),
+            name if self.all || self.is_limited() => printable::whole_name(name),
+            name => printable::name(name),
+        }
+    }
+}
+
+/// `lenspeel info`.
+pub fn run(args: &InfoArgs) -> Result<(), InputError> {
+    let model = Model::load_with(&args.model, None, &args.open.options())?;
+    let patterns = args.patterns.iter().map(Pattern::new).collect();
+    let choice = InfoChoice { all: args.all, patterns };
+    if args.json {
+        super::print_json(&info_json(&model, &choice));
+    } else {
+        super::print(&info_text(&model, &choice));
+    }
+    Ok(())
+}
+
+/// Everything worth knowing about a model, as aligned text; with patterns, what they match.
+pub fn info_text(model: &Model, choice: &InfoChoice) -> String {
+    let mut out = format!("{}\n", printable::message(&model.name));
+    if choice.is_limited() {
+        section(&mut out, "nodes", &nodes::matching(model, choice));
+        section(&mut out, "materials", &materials(model, choice));
+        if !out.contains("\n\n") {
+            out += "  no node and no material has a name that matches; names mind case, `*` and `?` stand for others\n";
+        }
+        return out;
+    }
     totals(model, &mut out);
-    let parts: [fn(&Model) -> Vec<Row>; 8] = [scenes, nodes, materials, textures, images, lights, cameras, animations];
-    let titles = ["scenes", "nodes", "materials", "textures", "images", "lights", "cameras", "animations"];
+    section(&mut out, "scenes", &scenes(model));
+    section(&mut out, "nodes", &nodes::tree(model, choice));
+    section(&mut out, "materials", &materials(model, choice));
+    let parts: [fn(&Model) -> Vec<Row>; 5] = [textures, images, lights, cameras, animations];
+    let titles = ["textures", "images", "lights", "cameras", "animations"];
     for (title, rows) in titles.iter().zip(parts.map(|part| part(model))) {
         section(&mut out, title, &rows);
     }
-    let line = |text: &String| Row { cells: vec![text.clone()] };
+    let line = |text: &String| Row { cells: vec![printable::message(text).into_owned()] };
     section(&mut out, "extensions", &model.extensions.iter().map(line).collect::<Vec<_>>());
     section(&mut out, "warnings", &model.warnings.iter().map(line).collect::<Vec<_>>());
     out
@@ -37,17 +108,21 @@ fn section(out: &mut String, title: &str, rows: &[Row]) {
         return;
     }
     let columns = rows.iter().map(|r| r.cells.len()).max().unwrap_or(0);
-    let width = |c: usize| rows.iter().filter_map(|r| r.cells.get(c)).map(|t| t.chars().count()).max().unwrap_or(0);
+    let cells = |c: usize| rows.iter().filter_map(move |r| r.cells.get(c)).map(|text| text.chars().count());
+    let width = |c: usize| cells(c).filter(|width| *width <= WIDEST).max().unwrap_or(0);
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let _ = writeln!(out, "\n{title}");
     for row in rows {
-        let cells: Vec<String> = row.cells.iter().zip(&widths).map(|(text, width)| format!("{text:<width$}")).collect();
-        let _ = writeln!(out, "  {}", cells.join("  ").trim_end());
+        let mut line = String::new();
+        for (text, width) in row.cells.iter().zip(&widths) {
+            let _ = write!(line, "  {text}{:1$}", "", width.saturating_sub(text.chars().count()));
+        }
+        let _ = writeln!(out, "{}", line.trim_end());
     }
 }
 
 fn totals(model: &Model, out: &mut String) {
-    let drawn: Vec<_> = model.nodes.iter().filter(|n| n.drawn).collect();
+    let drawn: Vec<_> = model.nodes.iter().filter(|n| n.is_shown()).collect();
     let shown: usize = drawn.iter().filter_map(|n| n.mesh).map(|m| triangles(&model.meshes[m])).sum();
     let stored: usize = model.meshes.iter().map(triangles).sum();
     let vertices: usize = model.meshes.iter().flat_map(|m| &m.primitives).map(|p| p.positions.len()).sum();
@@ -66,7 +141,7 @@ fn triangles(mesh: &Mesh) -> usize {
 
 /// The text of a name, or of its absence.
 fn named(name: &str) -> String {
-    if name.is_empty() { "(no name)".to_string() } else { name.to_string() }
+    InfoChoice::default().shown(name).into_owned()
 }
 
 fn scenes(model: &Model) -> Vec<Row> {
@@ -77,88 +152,21 @@ fn scenes(model: &Model) -> Vec<Row> {
     model.scenes.iter().enumerate().map(row).collect()
 }
 
-/// The tree, roots first; an own stack, for a chain of nodes may be longer than the program's.
-fn nodes(model: &Model) -> Vec<Row> {
-    enum Entry {
-        Node(usize),
-        Rest { nodes: usize, triangles: usize },
-    }
-    let roots: Vec<usize> = (0..model.nodes.len()).filter(|n| model.nodes[*n].parent.is_none()).collect();
-    let mut rows = Vec::new();
-    let mut stack: Vec<(Entry, usize)> = Vec::new();
-    let push = |siblings: &[usize], depth: usize, stack: &mut Vec<(Entry, usize)>| {
-        let cut = if siblings.len() > MAX_SIBLINGS { SHOWN_SIBLINGS } else { siblings.len() };
-        let (shown, rest) = siblings.split_at(cut);
-        if !rest.is_empty() {
-            let (nodes, triangles) = under(model, rest);
-            stack.push((Entry::Rest { nodes, triangles }, depth));
-        }
-        stack.extend(shown.iter().rev().map(|n| (Entry::Node(*n), depth)));
-    };
-    push(&roots, 0, &mut stack);
-    while let Some((entry, depth)) = stack.pop() {
-        match entry {
-            Entry::Node(node) => {
-                rows.push(node_row(model, node, depth));
-                push(&model.nodes[node].children, depth + 1, &mut stack);
-            }
-            Entry::Rest { nodes, triangles } => {
-                let text = format!("{}... and {nodes} more nodes", indent(depth));
-                rows.push(Row { cells: vec![text, String::new(), format!("{triangles} triangles")] });
-            }
-        }
-    }
-    rows
-}
-
-/// Nodes and triangles in some subtrees.
-fn under(model: &Model, roots: &[usize]) -> (usize, usize) {
-    let mut open = roots.to_vec();
-    let (mut nodes, mut count) = (0, 0);
-    while let Some(node) = open.pop() {
-        nodes += 1;
-        count += model.nodes[node].mesh.map_or(0, |m| triangles(&model.meshes[m]));
-        open.extend(&model.nodes[node].children);
-    }
-    (nodes, count)
-}
-
-/// Two blanks a level, as deep as a line can take.
-fn indent(depth: usize) -> String {
-    "  ".repeat(depth.min(20))
-}
-
-fn node_row(model: &Model, index: usize, depth: usize) -> Row {
-    let node = &model.nodes[index];
-    let mut cells = vec![format!("{}{index} {}", indent(depth), named(&node.name))];
-    let mut what = Vec::new();
-    if let Some(mesh) = node.mesh {
-        what.push(format!("mesh {mesh} {}", model.meshes[mesh].name).trim_end().to_string());
-    }
-    what.extend(node.camera.map(|camera| format!("camera {camera}")));
-    what.extend(node.light.map(|light| format!("light {light}")));
-    if !node.drawn {
-        what.push("not in this scene".to_string());
-    }
-    cells.push(what.join(", "));
-    if let Some(mesh) = node.mesh {
-        cells.push(format!("{} triangles", triangles(&model.meshes[mesh])));
-        cells.push(bounds_text(&model.node_bounds(index)));
-    }
-    Row { cells }
-}
-
-fn materials(model: &Model) -> Vec<Row> {
+fn materials(model: &Model, choice: &InfoChoice) -> Vec<Row> {
     let last = model.materials.len().saturating_sub(1);
     let default_used = model.meshes.iter().flat_map(|m| &m.primitives).any(|p| p.material == last);
     let row = |(index, material): (usize, &Material)| {
-        let name = if index == last { "(glTF's default)".to_string() } else { named(&material.name) };
+        let name =
+            if index == last { "(glTF's default)".to_string() } else { choice.shown(&material.name).into_owned() };
         let [r, g, b, a] = material.base_color.map(number);
         let base = format!("base {r} {g} {b} {a}");
         let surface = format!("metallic {} roughness {}", number(material.metallic), number(material.roughness));
         Row { cells: vec![index.to_string(), name, base, surface, material_notes(model, material)] }
     };
-    model.materials.iter().enumerate().filter(|(i, _)| *i != last || default_used).map(row).collect()
+    let is_listed = |(index, material): &(usize, &Material)| {
+        choice.has_name(&material.name) && (*index != last || (default_used && !choice.is_limited()))
+    };
+    model.materials.iter().enumerate().filter(is_listed).map(row).collect()
 }
 
 fn material_notes(model: &Model, material: &Material) -> String {
@@ -175,7 +183,8 @@ fn material_notes(model: &Model, material: &Material) -> String {
         notes.push("unlit".to_string());
     }
     let texture = |(role, r): (&str, &crate::scene::TextureRef)| {
-        format!("{role}: texture {} (image {})", r.texture, model.textures[r.texture].image)
+        let image = model.textures[r.texture].image.map_or("no image".to_string(), |image| format!("image {image}"));
+        format!("{role}: texture {} ({image})", r.texture)
     };
     notes.extend(material.textures().map(texture));
     notes.join(", ")
@@ -187,7 +196,14 @@ fn textures(model: &Model) -> Vec<Row> {
         let filter = |linear: bool| if linear { "linear" } else { "nearest" };
         let filters = format!("{}/{}, mips {:?}", filter(sampler.mag_linear), filter(sampler.min_linear), sampler.mips);
         let wrap = format!("wrap {:?} {:?}", sampler.wrap[0], sampler.wrap[1]);
-        Row { cells: vec![index.to_string(), format!("image {}", texture.image), filters, wrap] }
+        Row {
+            cells: vec![
+                index.to_string(),
+                texture.image.map_or("no image".to_string(), |image| format!("image {image}")),
+                filters,
+                wrap,
+            ],
+        }
     };
     model.textures.iter().enumerate().map(row).collect()
 }
@@ -232,7 +248,8 @@ fn lights(model: &Model) -> Vec<Row> {
 fn cameras(model: &Model) -> Vec<Row> {
     let row = |(index, camera): (usize, &Camera)| {
         let node = model.nodes.iter().position(|n| n.camera == Some(index));
-        let place = node.map_or("at no node".to_string(), |n| format!("at node {n} {}", model.nodes[n].name));
+        let place =
+            node.map_or("at no node".to_string(), |n| format!("at node {n} {}", printable::name(&model.nodes[n].name)));
         let lens = match camera {
             Camera::Perspective { fov_y, near, far } => {
                 let far = far.map_or("infinity".to_string(), number);
@@ -253,7 +270,7 @@ fn animations(model: &Model) -> Vec<Row> {
         let mut nodes: Vec<usize> = animation.channels.iter().map(|c| c.node).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let moves = format!("moves {} nodes", nodes.len());
+        let moves = format!("moves {} node{}", nodes.len(), if nodes.len() == 1 { "" } else { "s" });
         let cells = vec![index.to_string(), named(&animation.name), moves, format!("to {} s", number(animation.end()))];
         Row { cells }
     };
