@@ -98,6 +98,39 @@ fn spot_by_edge(before: Spot, ray: PixelRay, a: vec3f, b: vec3f, c: vec3f, acros
     return spot;
 }
 
+// The same with an edge of the triangle across, from an end of an edge to the corner opposite: of a triangle that meets a line
+// with a corner alone part lies under the line, too. `p`: the surface's position.
+fn spot_by_edge_beyond(
+    before: Spot,
+    ray: PixelRay,
+    p: vec3f,
+    end: vec3f,
+    opposite: vec3f,
+    across: u32,
+    beyond: u32,
+) -> Spot {
+    var spot = before;
+    // Where the surface turns at all edges its own lines are there already.
+    let matters = beyond == ACROSS_NOTHING || (across == ACROSS_FLAT && beyond == ACROSS_TURNED);
+    if across == ACROSS_NOTHING || !matters {
+        return spot;
+    }
+    let side = opposite - end;
+    let along = dot(p - end, side) / max(dot(side, side), 1e-30);
+    var away = edge_distance(ray, end, opposite);
+    if along < 0.0 {
+        away = point_distance(ray, end);
+    } else if along > 1.0 {
+        away = point_distance(ray, opposite);
+    }
+    if beyond == ACROSS_NOTHING {
+        spot.rim = min(spot.rim, away);
+    } else {
+        spot.edge = min(spot.edge, away);
+    }
+    return spot;
+}
+
 // A lit fragment on its way to the picture: straight colour, opacity, coverage.
 struct Shaded {
     color: vec3f,

@@ -344,11 +344,13 @@ fn color_stage(lit: vec3f, f: Fragment, s: Surface) -> vec3f {
 // The lower bits of what lies across an edge: the vertex opposite, or these. The highest: the surface turns there.
 const NO_VERTEX: u32 = 0x7fffffffu;
 
-fn spot_by_edges(nowhere: Spot, f: Fragment, t: Triangle, ray: PixelRay) -> Spot {
+fn spot_by_edges(nowhere: Spot, f: Fragment, t: Triangle, p: vec3f, ray: PixelRay) -> Spot {
     var spot = nowhere;
     let corners = array<vec3f, 3>(t.a, t.b, t.c);
+    let first = items[f.item].across + 4u * f.triangle;
+    let beyond = numbers[first + 3u];
     for (var i = 0u; i < 3u; i += 1u) {
-        let word = numbers[items[f.item].across + 3u * f.triangle + i];
+        let word = numbers[first + i];
         var across = select(ACROSS_TURNED, ACROSS_FLAT, word == (word & NO_VERTEX));
         var opposite = vec3f(0.0);
         if (word & NO_VERTEX) == NO_VERTEX {
@@ -356,7 +358,10 @@ fn spot_by_edges(nowhere: Spot, f: Fragment, t: Triangle, ray: PixelRay) -> Spot
         } else {
             opposite = placed(t.placement, (word & NO_VERTEX) - t.placement.base_vertex);
         }
-        spot = spot_by_edge(spot, ray, corners[i], corners[(i + 1u) % 3u], corners[(i + 2u) % 3u], across, opposite);
+        let ends = array<vec3f, 2>(corners[i], corners[(i + 1u) % 3u]);
+        spot = spot_by_edge(spot, ray, ends[0], ends[1], corners[(i + 2u) % 3u], across, opposite);
+        spot = spot_by_edge_beyond(spot, ray, p, ends[0], opposite, across, beyond >> (4u * i) & 3u);
+        spot = spot_by_edge_beyond(spot, ray, p, ends[1], opposite, across, beyond >> (4u * i + 2u) & 3u);
     }
     return spot;
 }
@@ -366,7 +371,7 @@ fn coverage_stage(full: Shaded, f: Fragment, at: Meeting, ray: PixelRay, positio
     var spot = Spot(FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 0u);
     // A cap has no edges and no corners.
     if HAS_WIREFRAME && !is_cap(f.triangle) && items[f.item].across != NONE {
-        spot = spot_by_edges(spot, f, t, ray);
+        spot = spot_by_edges(spot, f, t, position, ray);
     }
     if HAS_POINTS && !is_cap(f.triangle) {
         spot.corner = corner_distance(ray, t.a, t.b, t.c);

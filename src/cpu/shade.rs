@@ -12,7 +12,7 @@ use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::{Fragment, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Op, OwnSurface, Plan};
-use crate::scene::{MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
+use crate::scene::{EdgeKind, MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
 /// The records of a plan in the form that the translated shaders take.
@@ -244,17 +244,24 @@ impl<'a> Shader<'a> {
         let around = hit.corners.around.map(v3);
         let item = &self.plan.items[hit.instance.item];
         let mesh = &self.scene.models[item.model].meshes[item.mesh];
+        let kind = |kind| match kind {
+            EdgeKind::Border => wgsl::ACROSS_NOTHING.0,
+            EdgeKind::Turned => wgsl::ACROSS_TURNED.0,
+            EdgeKind::Flat => wgsl::ACROSS_FLAT.0,
+        };
         // None where no filter has asked.
-        for (i, across) in item.across(self.scene).get(triangle).into_iter().flatten().enumerate() {
+        let edges = item.across(self.scene).get(triangle);
+        for (i, (edges, across)) in
+            edges.iter().flat_map(|edges| edges.across.map(|across| (edges, across))).enumerate()
+        {
             let [a, b, c] = [0, 1, 2].map(|step| around[(i + step) % 3]);
-            let opposite = across.opposite().and_then(|vertex| mesh.vertex(vertex));
-            let kind = match opposite {
-                None => wgsl::ACROSS_NOTHING,
-                Some(_) if across.is_feature() => wgsl::ACROSS_TURNED,
-                Some(_) => wgsl::ACROSS_FLAT,
-            };
-            let corner = hit.corners.to_eye.transform_point3(opposite.unwrap_or_default());
-            spot = wgsl::spot_by_edge(spot, *hit.ray, a, b, c, kind.0, v3(corner));
+            let opposite = across.opposite().and_then(|vertex| mesh.vertex(vertex)).unwrap_or_default();
+            let opposite = v3(hit.corners.to_eye.transform_point3(opposite));
+            spot = wgsl::spot_by_edge(spot, *hit.ray, a, b, c, kind(across.kind()), opposite);
+            for (end, beyond) in [a, b].into_iter().zip(edges.beyond(i)) {
+                let (across, beyond) = (kind(across.kind()), kind(beyond));
+                spot = wgsl::spot_by_edge_beyond(spot, *hit.ray, v3(hit.position), end, opposite, across, beyond);
+            }
         }
         let [a, b, c] = around;
         spot.corner = wgsl::corner_distance(*hit.ray, a, b, c);

@@ -8,7 +8,7 @@ use super::provoking::Provoking;
 use super::records::NONE;
 use super::{Error, alloc, bindings};
 use crate::plan::Item;
-use crate::scene::{Across, Mesh, Primitive, Scene, SceneId};
+use crate::scene::{Across, Edges, Mesh, Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,7 +78,7 @@ impl Lists {
     }
 
     /// What lies across the edges of triangles, in the order in which they are drawn.
-    fn across(&mut self, across: &[[Across; 3]], first_number: u32, copies: &[u32]) -> u32 {
+    fn across(&mut self, across: &[Edges], first_number: u32, copies: &[u32]) -> u32 {
         if across.is_empty() {
             return NONE;
         }
@@ -88,8 +88,9 @@ impl Lists {
             opposite | if across.is_feature() { FEATURE } else { 0 }
         };
         for drawn in first_number as usize..first_number as usize + across.len() {
-            let own = across[self.numbers[drawn] as usize].each_ref().map(word);
-            self.numbers.extend(own);
+            let edges = &across[self.numbers[drawn] as usize];
+            self.numbers.extend(edges.across.each_ref().map(word));
+            self.numbers.push(edges.beyond_word());
         }
         start as u32
     }

@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3};
 use crate::InputError;
 use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
-use crate::scene::{Aabb, Across, Coincident, Model, Part, Primitive, Scene, Selections, Subject};
+use crate::scene::{Aabb, Coincident, Edges, Model, Part, Primitive, Scene, Selections, Subject};
 use crate::spec::{At, By, Cap, Filter, Pattern, PatternSet, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
@@ -99,7 +99,7 @@ impl Item {
     }
 
     /// What lies across the edges of its triangles; empty where no filter has asked for it.
-    pub fn across<'a>(&self, scene: &'a Scene) -> &'a [[Across; 3]] {
+    pub fn across<'a>(&self, scene: &'a Scene) -> &'a [Edges] {
         self.primitive_of(scene).across_of(self.ratio)
     }
 

@@ -14,6 +14,7 @@ pub struct Across(u32);
 
 const FEATURE: u32 = 1 << 31;
 const NOTHING: u32 = FEATURE - 1;
+const NO_SIDE: u32 = u32::MAX;
 
 impl Across {
     /// Nothing: the mesh ends there.
@@ -31,6 +32,51 @@ impl Across {
     /// The surface turns there, or ends, or another primitive begins.
     pub fn is_feature(self) -> bool {
         self.0 & FEATURE != 0
+    }
+
+    pub fn kind(self) -> EdgeKind {
+        match self.opposite() {
+            None => EdgeKind::Border,
+            Some(_) if self.is_feature() => EdgeKind::Turned,
+            Some(_) => EdgeKind::Flat,
+        }
+    }
+}
+
+/// The edges of a triangle: the i-th leads from its i-th corner to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edges {
+    pub across: [Across; 3],
+    /// Two bits for each of the six edges that the triangles across have besides: see [`Edges::beyond`].
+    beyond: u32,
+}
+
+/// What an edge is to the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// It ends there.
+    Border,
+    /// It turns there.
+    Turned,
+    /// It is flat there.
+    Flat,
+}
+
+impl Edges {
+    const ALONE: Self = Self { across: [Across::BORDER; 3], beyond: 0 };
+
+    /// What the edges are that lead from the ends of the i-th edge, in its direction, to the corner opposite.
+    pub fn beyond(&self, i: usize) -> [EdgeKind; 2] {
+        [0, 2].map(|shift| match self.beyond >> (4 * i + shift) & 3 {
+            0 => EdgeKind::Border,
+            1 => EdgeKind::Turned,
+            _ => EdgeKind::Flat,
+        })
+    }
+
+    /// The same as a word for shaders.
+    pub fn beyond_word(&self) -> u32 {
+        self.beyond
     }
 }
 
@@ -85,7 +131,7 @@ impl Model {
 struct Version {
     primitive: usize,
     number: usize,
-    across: Vec<[Across; 3]>,
+    across: Vec<Edges>,
 }
 
 /// All versions of a mesh: simplified ones beside those of the same ratio, where there are such.
@@ -144,22 +190,24 @@ impl Places {
 type Run = ([u32; 2], u32);
 
 /// What lies across each edge of the triangles of each primitive.
-fn across(places: &Places, lists: &[&[[u32; 3]]]) -> Vec<Vec<[Across; 3]>> {
+fn across(places: &Places, lists: &[&[[u32; 3]]]) -> Vec<Vec<Edges>> {
     let first = |primitive: usize| places.first[primitive];
     let corners: Vec<[u32; 3]> = lists
         .iter()
         .enumerate()
         .flat_map(|(primitive, list)| list.iter().map(move |corners| corners.map(|c| first(primitive) + c)))
         .collect();
-    let mut found = vec![[Across::BORDER; 3]; corners.len()];
+    let mut found = vec![Edges::ALONE; corners.len()];
+    let mut partners = vec![NO_SIDE; 3 * corners.len()];
     let sides = Sides { places, corners: &corners, ends: ends(lists) };
     let runs: Vec<Run> = corners.par_iter().enumerate().flat_map_iter(|(i, own)| runs(i, own, &places.of)).collect();
-    let lone = sides.meet(runs, &mut found);
+    let lone = sides.meet(runs, &mut found, &mut partners);
     // Seams whose two sides were computed apart.
     let welded = weld(&sides, &lone);
     let again = lone.into_iter().map(|(ends, side)| (ends.map(|end| welded.get(&end).copied().unwrap_or(end)), side));
     let again = again.map(|([a, b], side)| ([a.min(b), a.max(b)], side)).filter(|([a, b], _)| a != b);
-    sides.meet(again.collect(), &mut found);
+    sides.meet(again.collect(), &mut found, &mut partners);
+    sides.look_beyond(&mut found, &partners);
     let mut rest = &found[..];
     let own = |list: &&[[u32; 3]]| {
         let (own, others) = rest.split_at(list.len());
@@ -198,7 +246,7 @@ struct Sides<'a> {
 
 impl Sides<'_> {
     /// Says what lies across the edges along which several triangles run; returns the others.
-    fn meet(&self, mut runs: Vec<Run>, found: &mut [[Across; 3]]) -> Vec<Run> {
+    fn meet(&self, mut runs: Vec<Run>, found: &mut [Edges], partners: &mut [u32]) -> Vec<Run> {
         runs.par_sort_unstable();
         let mut lone = Vec::new();
         for at_edge in runs.chunk_by(|a, b| a.0 == b.0) {
@@ -210,14 +258,35 @@ impl Sides<'_> {
                 let near = if at_edge.len() <= MOST_AT_AN_EDGE { 0 } else { place.saturating_sub(MOST_AT_AN_EDGE / 2) };
                 let others =
                     at_edge[near..].iter().take(MOST_AT_AN_EDGE).map(|run| run.1).filter(|other| other != side);
-                found[(side / 3) as usize][(side % 3) as usize] = self.across(*side, others);
+                let (across, partner) = self.across(*side, others);
+                found[(side / 3) as usize].across[(side % 3) as usize] = across;
+                partners[*side as usize] = partner;
             }
         }
         lone
     }
 
-    /// Of several triangles across an edge the one that best goes on with the surface.
-    fn across(&self, side: u32, others: impl Iterator<Item = u32>) -> Across {
+    /// Says what the other edges of the triangles across are.
+    fn look_beyond(&self, found: &mut [Edges], partners: &[u32]) {
+        let kind = |found: &[Edges], side: u32| match found[(side / 3) as usize].across[(side % 3) as usize].kind() {
+            EdgeKind::Border => 0,
+            EdgeKind::Turned => 1,
+            EdgeKind::Flat => 2,
+        };
+        for (side, other) in (0u32..).zip(partners).filter(|(_, other)| **other != NO_SIDE) {
+            let next = |step: u32| other / 3 * 3 + (other + step) % 3;
+            let [first, _, _] = self.points(side);
+            let [a, b, _] = self.points(*other);
+            // Neighbours run along an edge in opposite directions, where none is turned.
+            let (from, to) =
+                if a.distance(first) < b.distance(first) { (next(2), next(1)) } else { (next(1), next(2)) };
+            let bits = kind(found, from) | kind(found, to) << 2;
+            found[(side / 3) as usize].beyond |= bits << (4 * (side % 3));
+        }
+    }
+
+    /// Of several triangles across an edge the one that best goes on with the surface, and which edge of it that is.
+    fn across(&self, side: u32, others: impl Iterator<Item = u32>) -> (Across, u32) {
         let (mut best, mut is_feature) = (None, false);
         for other in others {
             let turn = self.turn(side, other);
@@ -228,8 +297,8 @@ impl Sides<'_> {
         }
         match best {
             // Where it folds back there is an end, flat as it is.
-            Some((turn, other)) => Across::new(self.opposite(other), is_feature || turn >= 0.0),
-            None => Across::BORDER,
+            Some((turn, other)) => (Across::new(self.opposite(other), is_feature || turn >= 0.0), other),
+            None => (Across::BORDER, NO_SIDE),
         }
     }
 
@@ -319,12 +388,12 @@ mod tests {
         Mesh { name: String::new(), primitives: primitives.iter().map(primitive).collect() }
     }
 
-    fn found(mesh: &Mesh) -> Vec<Vec<[Across; 3]>> {
+    fn found(mesh: &Mesh) -> Vec<Vec<Edges>> {
         versions(mesh).into_iter().map(|version| version.across).collect()
     }
 
-    fn count(all: &[Vec<[Across; 3]>], counts: impl Fn(Across) -> bool) -> usize {
-        all.iter().flatten().flatten().filter(|across| counts(**across)).count()
+    fn count(all: &[Vec<Edges>], counts: impl Fn(Across) -> bool) -> usize {
+        all.iter().flatten().flat_map(|edges| edges.across).filter(|across| counts(*across)).count()
     }
 
     /// A quad with corners of its own for each triangle.
@@ -341,9 +410,20 @@ mod tests {
         let mesh = mesh(&[&square(0.0)]);
         let all = found(&mesh);
         assert_eq!(count(&all, |across| across == Across::BORDER), 4);
-        let diagonal = all[0][0][2];
+        let diagonal = all[0][0].across[2];
+        assert_eq!(all[0][0].beyond(2), [EdgeKind::Border; 2]);
         assert!(!diagonal.is_feature());
         assert_eq!(diagonal.opposite().and_then(|vertex| mesh.vertex(vertex)), Some(Vec3::Y));
+    }
+
+    #[test]
+    fn edges_beyond_an_edge_are_told_from_its_first_end() {
+        // Beyond the diagonal from (1, 1) to (0, 0) there is a border, and a flat edge with a third triangle behind it.
+        let [one, other] = square(0.0);
+        let third = [Vec3::Y, Vec3::ZERO, Vec3::new(-1.0, 0.5, 0.0)];
+        let all = found(&mesh(&[&[one, other, third]]));
+        assert_eq!(all[0][0].beyond(2), [EdgeKind::Flat, EdgeKind::Border]);
+        assert_eq!(all[0][1].beyond(0), [EdgeKind::Border; 2]);
     }
 
     #[test]

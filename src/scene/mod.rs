@@ -19,7 +19,7 @@ mod simplified;
 mod textures;
 mod vertex_values;
 
-pub use across::Across;
+pub use across::{Across, EdgeKind, Edges};
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
 pub(crate) use budget::TO_TAKE_LESS;

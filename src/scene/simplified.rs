@@ -6,7 +6,7 @@ use meshopt::{SimplifyOptions, simplify_decoder, simplify_scale_decoder};
 use rayon::prelude::*;
 
 use super::vertex_values::places;
-use super::{Across, Model, Primitive, Scene, Selections, Subject};
+use super::{Edges, Model, Primitive, Scene, Selections, Subject};
 use crate::spec::{At, Filter, LensSpec, Spec, lod};
 
 /// A primitive with fewer triangles.
@@ -19,7 +19,7 @@ pub struct Simplified {
     /// How far its surface is from the primitive's, about, in the primitive's own units.
     pub error: f32,
     /// As of [`Primitive::across`].
-    pub across: Vec<[Across; 3]>,
+    pub across: Vec<Edges>,
 }
 
 /// So much more than what was asked for may be left before edges where vertices part (in normals, in texture coordinates)
@@ -81,7 +81,7 @@ impl Primitive {
     }
 
     /// What lies across the edges of the triangles of a version; empty where no filter has asked for it.
-    pub fn across_of(&self, ratio: f32) -> &[[Across; 3]] {
+    pub fn across_of(&self, ratio: f32) -> &[Edges] {
         let simplified = self.simplified.iter().find(|version| version.ratio == ratio);
         simplified.map_or(&self.across, |version| &version.across)
     }
