@@ -123,7 +123,7 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     }
     let mut short = String::new();
     for piece in text.split_inclusive(char::is_whitespace) {
-        let count = piece.chars().count();
+        let count = piece.trim_end().chars().count();
         if count <= MAX_SHOWN {
             short.push_str(piece);
             continue;

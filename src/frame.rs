@@ -56,8 +56,8 @@ pub struct Aovs {
     pub triangles: Vec<u32>,
     /// Node index in its file plus one; 0 where nothing is.
     pub nodes: Vec<u32>,
-    /// Along the forward axis, scene units; infinite where nothing is.
-    pub depth: Vec<f32>,
+    /// From the eye along the forward axis, scene units; infinite where nothing is.
+    pub depth: Vec<f64>,
     /// World space; zero where nothing is.
     pub normals: Vec<[f32; 3]>,
     /// One more than the distinct lens boundaries between near and far.
@@ -77,14 +77,14 @@ impl Aovs {
             instances: filled(count, NOTHING)?,
             triangles: filled(count, NOTHING)?,
             nodes: filled(count, 0)?,
-            depth: filled(count, f32::INFINITY)?,
+            depth: filled(count, f64::INFINITY)?,
             normals: filled(count, [0.0; 3])?,
             layers: filled(count, 1)?,
         })
     }
 
     /// Bytes a pixel.
-    pub const BYTES: u64 = 4 * 4 + 4 + 12 + 2;
+    pub const BYTES: u64 = 4 * 4 + 8 + 12 + 2;
 
     /// The region of each pixel's visible fragment; `None` where nothing is.
     pub fn region(&self, pixel: usize) -> Option<Region> {

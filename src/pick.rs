@@ -16,8 +16,8 @@ pub struct Pick {
     pub instance: u32,
     /// Into the item's triangles; of a cap see [`cap_number`](crate::pixel::cap_number).
     pub triangle: u32,
-    /// Along the forward axis, scene units.
-    pub depth: f32,
+    /// From the eye along the forward axis, scene units.
+    pub depth: f64,
     /// World space.
     pub normal: Vec3,
     pub region: Region,
@@ -44,7 +44,8 @@ impl Pick {
 
     /// The visible fragment of a pixel's report.
     pub fn from_visible(plan: &Plan, pixel: [u32; 2], Visible { fragment, normal }: &Visible) -> Self {
-        Self::new(plan, pixel, fragment.instance, fragment.triangle, fragment.depth, *normal, fragment.region)
+        let depth = plan.view.from_eye(f64::from(fragment.depth));
+        Self::new(plan, pixel, fragment.instance, fragment.triangle, depth, *normal, fragment.region)
     }
 
     fn new(
@@ -52,7 +53,7 @@ impl Pick {
         pixel: [u32; 2],
         instance: u32,
         triangle: u32,
-        depth: f32,
+        depth: f64,
         normal: Vec3,
         region: Region,
     ) -> Self {
@@ -63,13 +64,14 @@ impl Pick {
     /// With the names that the files and the spec give.
     pub fn named<'a>(&self, scene: &'a Scene, plan: &'a Plan) -> NamedPick<'a> {
         let surface = NamedSurface::new(scene, plan, self.instance, self.triangle, self.region);
-        NamedPick { surface, depth: self.depth, position: self.position, place: self.place, normal: self.normal }
+        NamedPick { surface, depth: self.depth as f32, position: self.position, place: self.place, normal: self.normal }
     }
 }
 
-/// Where the surface that the ray through a pixel's centre meets is shown, and where it stands in the scene.
-pub(crate) fn places(plan: &Plan, [x, y]: [u32; 2], instance: u32, depth: f32) -> (DVec3, DVec3) {
-    let position = plan.view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).at(f64::from(depth));
+/// Where the surface that the ray through a pixel's centre meets so far from the eye is shown, and where it stands in the
+/// scene.
+pub(crate) fn places(plan: &Plan, [x, y]: [u32; 2], instance: u32, depth: f64) -> (DVec3, DVec3) {
+    let position = plan.view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).at(depth - plan.view.anchor.depth);
     (position, plan.instances[instance as usize].place_of(position))
 }
 

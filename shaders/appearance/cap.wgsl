@@ -73,8 +73,10 @@ fn cap_ink_before(along: f32) -> f32 {
     return whole * CAP_LINE_WIDTH + min(along - whole, CAP_LINE_WIDTH);
 }
 
-// Sides of the triangle that stands for a cap where a ray meets it, as a share of the way from the eye.
-const CAP_PIECE: f32 = 0.01;
+// The sides of the triangle that stands for a cap where a ray meets it at a depth: some pixels long.
+fn cap_piece(ray: PixelRay, depth: f32) -> f32 {
+    return 8.0 * length(ray.origin_dx + ray.direction_dx * depth);
+}
 
 // A corner of that triangle: the point where the ray meets it, and two beside it.
 fn cap_corner(number: u32, position: vec3f, normal: vec3f, size: f32) -> vec3f {

@@ -1,7 +1,8 @@
 // Rays, triangles and what a pixel spans on them.
 
-// A view ray and how it changes by one pixel to the right (x) and down (y). The direction has length one
-// along the camera's forward axis, so a parameter along it is a depth.
+// A view ray and how it changes by one pixel to the right (x) and down (y). It starts on the anchor (see `view.rs`) and is
+// relative to the view's origin there. The direction has length one along the camera's forward axis, so a parameter along
+// it is a depth.
 struct PixelRay {
     origin: vec3f,
     direction: vec3f,
@@ -19,32 +20,52 @@ struct TriangleHit {
     depth: f32,
 }
 
+// One over the largest of a vector's numbers. Vectors are brought to that size before they are multiplied, so that products
+// of very small ones and very large ones are numbers.
+fn to_unit(v: vec3f) -> f32 {
+    let size = abs(v);
+    return 1.0 / max(max(size.x, max(size.y, size.z)), 1e-36);
+}
+
 // Where a ray meets the plane of a triangle. The caller knows that it does.
 fn triangle_hit(origin: vec3f, direction: vec3f, a: vec3f, b: vec3f, c: vec3f) -> TriangleHit {
-    let ab = b - a;
-    let ac = c - a;
+    let scale = min(to_unit(b - a), to_unit(c - a));
+    let ab = (b - a) * scale;
+    let ac = (c - a) * scale;
     let p = cross(direction, ac);
     let det = dot(ab, p);
     let inverse = 1.0 / select(det, 1e-30, abs(det) < 1e-30);
-    let from_a = origin - a;
+    let from_a = (origin - a) * scale;
     let q = cross(from_a, ab);
     let u = dot(from_a, p) * inverse;
     let v = dot(direction, q) * inverse;
-    return TriangleHit(vec3f(1.0 - u - v, u, v), dot(ac, q) * inverse);
+    return TriangleHit(vec3f(1.0 - u - v, u, v), dot(ac, q) * inverse / scale);
+}
+
+// The unit normal of a triangle of any size; zero for one without area.
+fn flat_normal(a: vec3f, b: vec3f, c: vec3f) -> vec3f {
+    let across = cross((b - a) * to_unit(b - a), (c - a) * to_unit(c - a));
+    let size = length(across);
+    if size < 1e-18 {
+        return vec3f(0.0);
+    }
+    return across / size;
 }
 
 // Distance in pixels from a pixel's ray to the line through `a` and `b` as the picture shows it.
 // The line and the eye span a plane; its distance function is linear over the pixels, so this holds for
 // edges that pass behind the eye, too.
 fn edge_distance(ray: PixelRay, a: vec3f, b: vec3f) -> f32 {
-    let value = edge_function(ray.origin, ray.direction, a, b);
-    let dx = edge_function(ray.origin + ray.origin_dx, ray.direction + ray.direction_dx, a, b) - value;
-    let dy = edge_function(ray.origin + ray.origin_dy, ray.direction + ray.direction_dy, a, b) - value;
+    let along = (b - a) * to_unit(b - a);
+    let scale = to_unit(a - ray.origin);
+    let value = edge_function((a - ray.origin) * scale, ray.direction, along);
+    let dx = edge_function((a - ray.origin - ray.origin_dx) * scale, ray.direction + ray.direction_dx, along) - value;
+    let dy = edge_function((a - ray.origin - ray.origin_dy) * scale, ray.direction + ray.direction_dy, along) - value;
     return abs(value) / max(length(vec2f(dx, dy)), 1e-30);
 }
 
-fn edge_function(origin: vec3f, direction: vec3f, a: vec3f, b: vec3f) -> f32 {
-    return dot(cross(a - origin, b - a), direction);
+fn edge_function(offset: vec3f, direction: vec3f, along: vec3f) -> f32 {
+    return dot(cross(offset, along), direction);
 }
 
 // Seen so much edge on, by its sine, a triangle is not seen.
@@ -53,10 +74,11 @@ const EDGE_ON: f32 = 1e-4;
 // Whether the picture shows the triangle across the edge from `a` to `b`, whose other corner is `d`, beyond the edge, and not
 // behind or in front of the triangle with the corner `c`.
 fn goes_on_across(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f, d: vec3f) -> bool {
-    // The plane of the edge and the eye.
+    // The plane of the edge and the eye, which is where all rays of a perspective camera meet.
     var toward = ray.direction;
-    if dot(ray.direction_dx, ray.direction_dx) > 0.0 {
-        toward = a - ray.origin;
+    let spread = dot(ray.direction_dx, ray.direction_dx);
+    if spread > 0.0 {
+        toward = a - (ray.origin - ray.direction * (dot(ray.origin_dx, ray.direction_dx) / spread));
     }
     let normal = cross(toward, b - a);
     let own = dot(normal, c - a);
@@ -71,21 +93,16 @@ fn corner_distance(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f) -> f32 {
 
 // Distance in pixels from a pixel to a point as the picture shows it; very far for one behind the eye.
 fn point_distance(ray: PixelRay, p: vec3f) -> f32 {
-    let perspective = dot(ray.direction_dx, ray.direction_dx) > 0.0;
     let offset = p - ray.origin;
     // A pixel's steps are at right angles to each other and to the forward axis.
-    var right = ray.origin_dx;
-    var down = ray.origin_dy;
-    var across = offset;
-    if perspective {
-        right = ray.direction_dx;
-        down = ray.direction_dy;
-        let depth = dot(offset, normalize(cross(right, down)));
-        if depth <= 0.0 {
-            return 1e9;
-        }
-        across = offset / depth - ray.direction;
+    let forward = normalize(cross(ray.origin_dx + ray.direction_dx, ray.origin_dy + ray.direction_dy));
+    let depth = dot(offset, forward);
+    let right = ray.origin_dx + ray.direction_dx * depth;
+    let down = ray.origin_dy + ray.direction_dy * depth;
+    if dot(right, ray.origin_dx + ray.direction_dx) <= 0.0 {
+        return 1e9;
     }
+    let across = offset - ray.direction * depth;
     return length(vec2f(dot(across, right) / dot(right, right), dot(across, down) / dot(down, down)));
 }
 

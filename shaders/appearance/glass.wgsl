@@ -23,14 +23,13 @@ fn glass_opacity(glass: Glass, facing: f32, silhouette: f32) -> f32 {
     return clamp(max(body, 0.85 * line) * glass.color.a, 0.0, 1.0);
 }
 
-// Gradient over the pixels of 1/depth on the plane through `p` with normal `n` (both relative to the ray).
-fn inverse_depth_gradient(ray: PixelRay, n: vec3f, depth: f32) -> vec2f {
+// By how much nearer the plane with normal `n` that the ray meets at a depth gets from pixel to pixel.
+fn depth_gradient(ray: PixelRay, n: vec3f, depth: f32) -> vec2f {
     let facing = dot(n, ray.direction);
     let slope = 1.0 / select(facing, 1e-20, abs(facing) < 1e-20);
     let along_x = dot(n, ray.direction_dx * depth + ray.origin_dx) * slope;
     let along_y = dot(n, ray.direction_dy * depth + ray.origin_dy) * slope;
-    // d(depth) = -along; d(1/depth) = -d(depth)/depth^2, kept as a change of depth over depth^2.
-    return vec2f(along_x, along_y) / (depth * depth);
+    return vec2f(along_x, along_y);
 }
 
 // Beyond this depth a half-space has no end: the square of a depth must fit.
@@ -39,23 +38,21 @@ const NO_END: f32 = 1e18;
 // Pixels from the silhouette of a convex volume, to first order: where the entry and the exit meet; of a half-space, the
 // horizon of its plane, where inverse depths are zero.
 // The inverse depths of a plane are linear over the picture; where entry and exit lie on one smooth
-// surface their difference falls like a square root, which doubles the distance.
-fn silhouette_distance(ray: PixelRay, entry: f32, entry_normal: vec3f, exit: f32, exit_normal: vec3f, smooth_join: u32) -> f32 {
-    // Orthographic depths may be of any sign; only differences count there.
+// surface their difference falls like a square root, which doubles the distance. `eye`: how far the eye is before the
+// anchor.
+fn silhouette_distance(ray: PixelRay, eye: f32, entry: f32, entry_normal: vec3f, exit: f32, exit_normal: vec3f, smooth_join: u32) -> f32 {
+    // Of an orthographic camera depths themselves are. What follows are differences of inverse depths times both depths.
     let perspective = dot(ray.direction_dx, ray.direction_dx) > 0.0;
-    var gap = exit - entry;
-    var slope = inverse_depth_gradient(ray, entry_normal, 1.0) - inverse_depth_gradient(ray, exit_normal, 1.0);
-    if perspective {
-        gap = 1.0 / max(entry, 1e-20);
-        slope = inverse_depth_gradient(ray, entry_normal, entry);
-        if exit < NO_END {
-            gap -= 1.0 / max(exit, 1e-20);
-            slope -= inverse_depth_gradient(ray, exit_normal, exit);
-        }
-    } else if exit > NO_END || entry < -NO_END {
+    if !perspective && (exit > NO_END || entry < -NO_END) {
         return NO_END;
     }
-    let distance = gap / max(length(slope), 1e-20);
+    let end = min(exit, NO_END);
+    let ratio = select(1.0, max(end + eye, 1e-20) / max(entry + eye, 1e-20), perspective);
+    var slope = depth_gradient(ray, entry_normal, entry) * ratio;
+    if exit < NO_END {
+        slope -= depth_gradient(ray, exit_normal, end) / ratio;
+    }
+    let distance = (end - entry) / max(length(slope), 1e-20);
     return select(distance, 0.5 * distance, smooth_join != 0u);
 }
 

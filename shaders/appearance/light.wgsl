@@ -14,7 +14,7 @@ struct Light {
     // Cosines of a spot's half angles.
     cos_inner: f32,
     cos_outer: f32,
-    // World space.
+    // As a surface's.
     position: vec4f,
     // The way the light travels, unit length.
     direction: vec4f,

@@ -22,7 +22,7 @@ const ALPHA_MASK: u32 = 1u;
 const ALPHA_BLEND: u32 = 2u;
 
 struct Surface {
-    // World space.
+    // Relative to the view's origin, along the world's axes.
     position: vec3f,
     // World space, unit length, on the viewer's side.
     normal: vec3f,

@@ -9,7 +9,8 @@ fn contours_surface(op: Op, before: Surface, reading: Reading) -> Surface {
         return before;
     }
     let spacing = op.b.z;
-    let turns = reading.value / spacing;
+    // Values are counted from where it costs no digits; `b.x` brings them back to a whole number of spacings.
+    let turns = (reading.value + op.b.x) / spacing;
     // From the nearest line, in pixels.
     let away = abs(turns - floor(turns + 0.5)) * spacing / max(reading.change, 1e-20);
     let pixels_apart = spacing / max(reading.change, 1e-20);

@@ -34,7 +34,7 @@ fn span_around(part: u32, ray: LensRay, depth: f32) -> Span {
 // The surface of a lens where it begins or ends at `depth`: of the first part whose crossing there makes a difference.
 // Goes from crossing to crossing, at one depth in the order of the parts, until the lens has changed.
 fn compound_glass(rank: u32, key: u32, ray: LensRay, depth: f32) -> GlassHit {
-    let merge = MERGE * abs(depth);
+    let merge = merge_at(depth);
     // Rounding differs between passes, and between a mesh's triangles in space and in the picture; another lens may have
     // drawn the boundary nearer by one merge, and another part of this one by one more.
     var reached = depth - 0.5 * merge;

@@ -4,7 +4,7 @@
 fn cap_meeting(item: u32, closing: Closing, ray: PixelRay, pixel: vec2u, depth: f32) -> Meeting {
     let normal = cap_normal(item, closing, ray, pixel, depth);
     let position = ray.origin + ray.direction * depth;
-    let size = CAP_PIECE * length(position);
+    let size = cap_piece(ray, depth);
     var t: Triangle;
     t.a = position;
     t.b = cap_corner(1u, position, normal, size);

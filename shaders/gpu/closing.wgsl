@@ -39,7 +39,7 @@ fn cap_words(item: u32, maker: u32) -> u32 {
 
 // Just before a boundary: at such a depth it is not reached, and lenses that meet there are not either.
 fn before_boundary(depth: f32) -> f32 {
-    return depth - 2.0 * MERGE * abs(depth);
+    return depth - 2.0 * merge_at(depth);
 }
 
 fn closing(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32) -> Closing {
@@ -91,9 +91,9 @@ fn closing(item: u32, ray: PixelRay, tile: TileRecord, pixel: vec2u, depth: f32)
     found.maker = select(maker, NONE, found.boundary == NONE);
     found.around = behind.around;
     found.stack = behind.stack;
-    // It keeps the look that its maker gives it: lower lenses do not act on it, and a rule is above all lenses.
-    for (var w = 0u; w < WORDS; w += 1u) {
-        found.stack.words[w] &= ~word_below(min(maker, frame.lens_count), w);
+    // It keeps the look that the lens which makes it gives it: lower lenses do not act on it.
+    for (var w = 0u; w < WORDS && maker < frame.lens_count; w += 1u) {
+        found.stack.words[w] &= ~word_below(maker, w);
     }
     return found;
 }

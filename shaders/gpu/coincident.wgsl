@@ -1,6 +1,6 @@
 // Triangles that lie over each other in one plane have their depths from that plane: one number for all, and a rank in it.
 
-// Words of one: the triangle's number in its primitive, its rank, the plane around the eye. Twin of `coincident_data.rs`.
+// Words of one: the triangle's number in its primitive, its rank, the plane. Twin of `coincident_data.rs`.
 const IN_PLANE_WORDS: u32 = 6u;
 
 // Where the words of a drawn triangle are, or NONE.

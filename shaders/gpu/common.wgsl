@@ -7,9 +7,11 @@
 // surface (`GLASS`) or one with a line where it meets the scene (`CONTACT`), something may be seen through something else
 // (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
-// (`QUANTITIES`), or has wires that nearer surfaces hide (`HIDDEN_LINES`); whether triangles lie in planes with others (`IN_PLANES`). `CHANNELS`: how many numbers at vertices filters
+// (`QUANTITIES`), has wires that nearer surfaces hide (`HIDDEN_LINES`), or
+// some triangle is very large for how near it is (`LARGE`), or lies in a plane with others (`IN_PLANES`). `CHANNELS`: how many numbers at vertices filters
 // read, at least 1.
-// Positions are relative to the eye, along the world's axes, unless a name says otherwise.
+// Positions are relative to the view's origin, along the world's axes, and depths are counted from its anchor (see
+// `view.rs`), unless a name says otherwise.
 
 const NONE: u32 = 0xffffffffu;
 // Stands for infinity: infinite values are not reliable in WGSL.
@@ -17,21 +19,24 @@ const FAR_AWAY: f32 = 1e37;
 const TILE: u32 = 16u;
 // Workgroups in a row of a dispatch over tiles; twin of `tiles::DISPATCH_WIDTH`.
 const DISPATCH_WIDTH: u32 = 1024u;
-// Boundaries closer than this share of the depth are one.
+// Of the distance from a perspective camera's eye, and what single precision resolves: see `merge_at`.
 const MERGE: f32 = 1e-5;
+const RESOLVED: f32 = 1e-6;
+
+// How far apart boundaries at a depth may be to be one: twin of `Merging` in `view.rs`.
+fn merge_at(depth: f32) -> f32 {
+    let by_distance = select(FAR_AWAY, MERGE * abs(frame.anchor + depth), frame.perspective != 0u);
+    return max(min(by_distance, frame.merge_most), RESOLVED * (abs(depth) + frame.merge_across));
+}
 
 // Whether a boundary is another one than that at `first` before it.
 fn starts_boundary(first: f32, depth: f32) -> bool {
-    return depth - first > MERGE * abs(first);
+    return depth - first > merge_at(first);
 }
-
 
 // Twin of `records::FrameRecord`.
 struct Frame {
-    // A ray is `fixed` and `base + x * dx + y * dy` at the point (x, y) of the whole picture, in pixels: origin and
-    // direction of a perspective camera, direction and origin of an orthographic one.
-    ray_fixed: vec4f,
-    ray_base: vec4f,
+    // A step across the picture by one pixel, right and down: see `pixel_ray`.
     ray_dx: vec4f,
     ray_dy: vec4f,
     right: vec4f,
@@ -40,6 +45,10 @@ struct Frame {
     // From clip coordinates of the whole picture to those of the window and the sample.
     clip_scale: vec2f,
     clip_shift: vec2f,
+    // The middle of the whole picture, in pixels from its top left corner.
+    middle: vec2f,
+    // What a step across the picture moves of a ray: of its origin, and of its direction.
+    shares: vec2f,
     // Depths along `forward`.
     near: f32,
     far: f32,
@@ -73,11 +82,19 @@ struct Frame {
     after_item: u32,
     // TONE_...
     tone_mapping: u32,
-    pad_a: u32,
-    pad_b: u32,
-    pad_c: u32,
-    // Of the eye: world space.
-    eye: vec3f,
+    // Between these depths drawn depths resolve.
+    drawn_near: f32,
+    drawn_far: f32,
+    // The former, from the eye.
+    drawn_from_eye: f32,
+    // Of the view's origin: world space.
+    origin: vec3f,
+    // How far the eye is before the anchor.
+    anchor: f32,
+    // See `merge_at`.
+    merge_most: f32,
+    merge_across: f32,
+    pad: f32,
     // Two over the picture's height, at depth 1 for a perspective camera.
     picture_scale: f32,
     // Lenses that test every fragment; lenses that may make one translucent.
@@ -133,6 +150,8 @@ struct Item {
     ratio: f32,
     // How far versions of it may lie from each other.
     spread: f32,
+    // In `lens_data`, or NONE: the planes of its triangles, by their numbers in its primitive, where some are very large.
+    planes: u32,
     // Of one that may be cut: the first of those that enclose something only together with it.
     group: u32,
     // In `lens_words`, or NONE: the roles of its primitive's triangles, four a word, where not all are plain; and its lids,
@@ -195,16 +214,17 @@ const PART_PARITY: u32 = 2u;
 
 // One solid of a lens volume, convex but for FORM_MESH: twin of `records::PartRecord`.
 struct Part {
-    // The pixel's ray in the part's own space, as in `Frame`.
-    ray_fixed: vec4f,
-    ray_base: vec4f,
+    // In the part's own space the ray of the picture's middle, with in `w` what its origin is outside the surface (see
+    // `local_ray`), and a pixel's steps as in `Frame`.
+    ray_origin: vec4f,
+    ray_direction: vec4f,
     ray_dx: vec4f,
     ray_dy: vec4f,
     // Columns of the map from normals in the part's own space.
     normal_x: vec4f,
     normal_y: vec4f,
     normal_z: vec4f,
-    // Rows of the map from the space around the eye.
+    // Rows of the map from the space around the view's origin.
     local_x: vec4f,
     local_y: vec4f,
     local_z: vec4f,
@@ -231,9 +251,10 @@ struct Part {
     first_vertex: u32,
     crossing_room: u32,
     // Of a mesh whose faces are listed: its triangles in the picture, four vectors each in `lens_data` (see
-    // `cells::ProjectedMesh`), and the point of the picture that they start from.
+    // `cells::ProjectedMesh`), the point of the picture that they start from, and the depth from the eye, or 0, by which
+    // their depths are counted.
     first_projected: u32,
-    pad: u32,
+    reference: f32,
     origin: vec2f,
 }
 
@@ -405,14 +426,16 @@ fn sample_point(pixel: vec2u) -> vec2f {
     return vec2f(frame.window_min + pixel) + frame.sample;
 }
 
+// Of a perspective camera rays part, of an orthographic one they start side by side; of the former they do that, too,
+// where the anchor is not at the eye.
 fn pixel_ray(pixel: vec2u) -> PixelRay {
     let at = sample_point(pixel);
-    let moving = frame.ray_base.xyz + frame.ray_dx.xyz * at.x + frame.ray_dy.xyz * at.y;
-    let still = vec3f(0.0);
-    if frame.perspective != 0u {
-        return PixelRay(frame.ray_fixed.xyz, moving, still, still, frame.ray_dx.xyz, frame.ray_dy.xyz, at);
-    }
-    return PixelRay(moving, frame.ray_fixed.xyz, frame.ray_dx.xyz, frame.ray_dy.xyz, still, still, at);
+    let from_middle = at - frame.middle;
+    let dx = frame.ray_dx.xyz;
+    let dy = frame.ray_dy.xyz;
+    let across = dx * from_middle.x + dy * from_middle.y;
+    let s = frame.shares;
+    return PixelRay(across * s.x, frame.forward.xyz + across * s.y, dx * s.x, dy * s.x, dx * s.y, dy * s.y, at);
 }
 
 fn normalize_or(v: vec3f, other: vec3f) -> vec3f {

@@ -4,7 +4,7 @@
 // counts where the ray crosses it last in front of the fragment, and first behind it.
 fn with_contact_lines(color: vec3f, on: Fragment, met: Meeting, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> vec3f {
     let t = met.triangle;
-    let normal = normalize_or(cross(t.b - t.a, t.c - t.a), vec3f(0.0));
+    let normal = flat_normal(t.a, t.b, t.c);
     let at = lens_ray(sample_point(pixel));
     var lined = color;
     var compound = NONE;

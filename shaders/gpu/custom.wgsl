@@ -12,7 +12,7 @@ fn source_position(op: Op, rank: u32, item: u32, position: vec3f) -> vec3f {
 
 fn seen_by_custom(s: Surface, position: vec3f) -> CustomSurface {
     return CustomSurface(
-        position + frame.eye,
+        position + frame.origin,
         s.normal,
         s.view,
         base_color(s),
@@ -23,7 +23,7 @@ fn seen_by_custom(s: Surface, position: vec3f) -> CustomSurface {
         surface_opacity(s),
         s.unlit,
         s.pixel,
-        dot(position, frame.forward.xyz),
+        frame.anchor + dot(position, frame.forward.xyz),
     );
 }
 

@@ -13,10 +13,15 @@ fn shown_corner(local: vec3f, shown: Shown) -> vec3f {
     return vec3f(dot(shown.row_x, at), dot(shown.row_y, at), dot(shown.row_z, at));
 }
 
-// Where a point is drawn. In perspective what lies before the near plane is cut off, and nothing behind; `z`: the place
-// between the planes, 1 to 0, for an orthographic camera.
+// Where a point is drawn; `z`: its place between the planes of what is drawn, 1 to 0, linear in the depth.
 fn clip_position(p: vec3f, depth: f32, z: f32) -> vec4f {
     let across = vec2f(dot(p, frame.right.xyz), dot(p, frame.up.xyz));
-    let zw = select(vec2f(z, 1.0), vec2f(frame.near, depth), frame.perspective != 0u);
+    let perspective = vec2f(z * frame.drawn_from_eye, frame.anchor + depth);
+    let zw = select(vec2f(z, 1.0), perspective, frame.perspective != 0u);
     return vec4f(across * frame.clip_scale + frame.clip_shift * zw.y, zw);
+}
+
+// The place of a depth between those planes.
+fn place_between_planes(depth: f32) -> f32 {
+    return (frame.drawn_far - depth) / (frame.drawn_far - frame.drawn_near);
 }

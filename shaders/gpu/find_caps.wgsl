@@ -21,7 +21,12 @@ fn cut_vertex(
 ) -> CutVarying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    return CutVarying(clip_position(p, depth, 0.5), item, depth, vertex - shown.base_vertex, NONE);
+    return CutVarying(clip_position(p, depth, z_of_cut()), item, depth, vertex - shown.base_vertex, NONE);
+}
+
+// A place between the planes at which nothing is cut off behind.
+fn z_of_cut() -> f32 {
+    return select(0.5, 1.0, frame.perspective != 0u);
 }
 
 // Words of a lid: its corners and its role.
@@ -36,7 +41,7 @@ fn lid_vertex(
     let at = items[item].lids + LID_WORDS * (vertex / 3u);
     let p = shown_corner(lens_vector(at + 3u * (vertex % 3u)), shown);
     let depth = dot(p, frame.forward.xyz);
-    return CutVarying(clip_position(p, depth, 0.5), item, depth, 0u, lens_words[at + LID_WORDS - 1u]);
+    return CutVarying(clip_position(p, depth, z_of_cut()), item, depth, 0u, lens_words[at + LID_WORDS - 1u]);
 }
 
 @fragment
@@ -47,8 +52,12 @@ fn crossing(in: CutVarying, @builtin(front_facing) is_front: bool) {
         return;
     }
     let role = select(in.role, role_of(in.item, in.triangle), in.role == NONE);
+    var depth = in.depth;
+    if in.role == NONE && has_planes(in.item) {
+        depth = meeting(in.item, in.triangle, pixel_ray(pixel)).hit.depth;
+    }
     if role / 2u != SLOT_OPEN {
-        append(crossings_of(pixel), in.depth, in.item, crossing_word(role / 2u, is_front == (role % 2u == 0u)));
+        append(crossings_of(pixel), depth, in.item, crossing_word(role / 2u, is_front == (role % 2u == 0u)));
     }
 }
 

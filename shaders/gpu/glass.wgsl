@@ -116,11 +116,11 @@ fn glass_silhouette(part: u32, at: LensRay, span: Span, ray: PixelRay) -> f32 {
         return nearest;
     }
     // Around the eye a volume has no outline.
-    if frame.perspective != 0u && span.entry <= 0.0 {
+    if frame.perspective != 0u && frame.anchor + span.entry <= 0.0 {
         return FAR_AWAY;
     }
     let entry_normal = surface_normal(part, at, span.entry, span.entry_face);
     let exit_normal = surface_normal(part, at, span.exit, span.exit_face);
     let join = select(0u, 1u, is_smooth_join(part, span.entry_face, span.exit_face));
-    return silhouette_distance(ray, span.entry, entry_normal, span.exit, exit_normal, join);
+    return silhouette_distance(ray, frame.anchor, span.entry, entry_normal, span.exit, exit_normal, join);
 }

@@ -156,7 +156,14 @@ fn projected_crossing(part: u32, at: vec2f, triangle: u32) -> TriangleCrossing {
     }
     let slope = lens_data[first + 3u];
     let counted = slope.x * (p.x - a.w) + slope.y * (p.y - b.w) + slope.z;
-    let t = select(counted, 1.0 / max(counted, 1e-30), frame.perspective != 0u);
+    // Linear over the picture is, of a perspective camera, the inverse of the depth from the eye, or its part behind a
+    // reference depth as a share of it.
+    let reference = parts[part].reference;
+    var t = counted;
+    if frame.perspective != 0u {
+        t = select(1.0, reference * counted, reference > 0.0) / max(select(counted, 1.0 - counted, reference > 0.0), 1e-30)
+            + (reference - frame.anchor);
+    }
     return TriangleCrossing(clamp(t, c.w, slope.w), true, all(left));
 }
 
@@ -196,7 +203,7 @@ const ANYWHERE: vec3f = vec3f(0.527348, 0.331907, 0.782154);
 
 // Whether a point of the mesh's own space is inside.
 fn is_in_mesh(part: u32, p: vec3f) -> bool {
-    let line = line_along(LocalRay(p, ANYWHERE), vec2f(0.0));
+    let line = line_along(LocalRay(p, ANYWHERE, vec3f(0.0)), vec2f(0.0));
     var crossing = before_mesh();
     var around = Around(0, 0u);
     loop {
@@ -290,7 +297,7 @@ fn mesh_span(part: u32, ray: LensRay, depth: f32) -> Span {
         around = also_crossed(around, last.word);
         if !was_enclosed && is_enclosed(around) {
             entry = last;
-        } else if was_enclosed && !is_enclosed(around) && last.t >= depth - MERGE * abs(depth) {
+        } else if was_enclosed && !is_enclosed(around) && last.t >= depth - merge_at(depth) {
             break;
         }
     }

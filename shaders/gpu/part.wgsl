@@ -12,6 +12,9 @@ struct Span {
 struct LocalRay {
     origin: vec3f,
     direction: vec3f,
+    // How far outside the surfaces of its form the origin is, as a square: of a ball, of the side of a cone or capsule, and
+    // of the ball at the other end of a capsule. Close to a surface that is far larger it has digits that the origin has not.
+    outside: vec3f,
 }
 
 const CONE_SIDE: u32 = 2u;
@@ -37,13 +40,35 @@ fn local_vector(part: u32, v: vec3f) -> vec3f {
 
 fn local_ray(part: u32, ray: LensRay) -> LocalRay {
     if MOVERS && ray.is_moved {
-        return LocalRay(local_point(part, ray.origin), local_vector(part, ray.direction));
+        return with_outside(part, local_point(part, ray.origin), local_vector(part, ray.direction));
     }
-    let moving = parts[part].ray_base.xyz + parts[part].ray_dx.xyz * ray.at.x + parts[part].ray_dy.xyz * ray.at.y;
-    if frame.perspective != 0u {
-        return LocalRay(parts[part].ray_fixed.xyz, moving);
+    let from_middle = ray.at - frame.middle;
+    let across = parts[part].ray_dx.xyz * from_middle.x + parts[part].ray_dy.xyz * from_middle.y;
+    let step = across * frame.shares.x;
+    let middle = parts[part].ray_origin;
+    let form = parts[part].form;
+    // Squares grow by the step times twice the middle and itself.
+    let twice = 2.0 * middle.xyz + step;
+    let slope = select(0.0, parts[part].r1 - parts[part].r0, form == FORM_CONE);
+    let radius = parts[part].r0 + slope * middle.z;
+    let grown = vec3f(
+        dot(twice, step),
+        dot(twice.xy, step.xy) - slope * step.z * (2.0 * radius + slope * step.z),
+        dot(twice - vec3f(0.0, 0.0, 2.0 * parts[part].length), step),
+    );
+    let outside = vec3f(middle.w, parts[part].ray_direction.w, parts[part].ray_dx.w) + grown;
+    return LocalRay(middle.xyz + step, parts[part].ray_direction.xyz + across * frame.shares.y, outside);
+}
+
+// A ray of which that is not known any better.
+fn with_outside(part: u32, origin: vec3f, direction: vec3f) -> LocalRay {
+    let end = origin - vec3f(0.0, 0.0, parts[part].length);
+    var radius = 1.0;
+    if parts[part].form == FORM_CONE {
+        radius = parts[part].r0 + (parts[part].r1 - parts[part].r0) * origin.z;
     }
-    return LocalRay(moving, parts[part].ray_fixed.xyz);
+    let side = dot(origin.xy, origin.xy) - radius * radius;
+    return LocalRay(origin, direction, vec3f(dot(origin, origin) - 1.0, side, dot(end, end) - 1.0));
 }
 
 // A gradient over the part's own space as one over the world.
@@ -63,7 +88,7 @@ fn part_span(asked: AskedPart, lens_ray: LensRay) -> Span {
     var span = no_span();
     let form = parts[part].form;
     if SPHERES && form == FORM_SPHERE {
-        span = ball_span(ray, vec3f(0.0));
+        span = ball_span(ray, vec3f(0.0), ray.outside.x);
     } else if CONES && form == FORM_CONE {
         span = cone_span(ray, parts[part].r0, parts[part].r1);
     } else if CAPSULES && form == FORM_CAPSULE {
@@ -75,9 +100,24 @@ fn part_span(asked: AskedPart, lens_ray: LensRay) -> Span {
     return span;
 }
 
-fn ball_span(ray: LocalRay, center: vec3f) -> Span {
+// Nearer than this to a form, as a square in its own space, rays are taken from where they start.
+const NEARBY: f32 = 4.0;
+
+fn ball_span(ray: LocalRay, center: vec3f, outside: f32) -> Span {
     let start = anchored(ray, center);
     let a = dot(ray.direction, ray.direction);
+    let from_center = ray.origin - center;
+    if dot(from_center, from_center) < NEARBY {
+        // The two ends, whose product is known, from the farther: the nearer may be far less than the ball is large.
+        let c = outside - a * start.shift * start.shift;
+        if c >= 0.0 {
+            return no_span();
+        }
+        let half = sqrt(-c / a);
+        let farther = start.shift + select(half, -half, start.shift < 0.0);
+        let nearer = outside / (a * farther);
+        return Span(min(nearer, farther), max(nearer, farther), 0u, 0u, true);
+    }
     let offset = start.origin - center;
     let c = dot(offset, offset) - 1.0;
     if c >= 0.0 {
@@ -90,7 +130,11 @@ fn ball_span(ray: LocalRay, center: vec3f) -> Span {
 // The slab between the caps and the inside of the side; where a ray goes through a rim or the apex, rounding moves
 // the crossing from one to the other, and nothing is lost. Twin of `cone_span` and `side_span` in `lens/form.rs`.
 fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
-    let start = anchored(ray, vec3f(0.0, 0.0, 0.5));
+    var start = anchored(ray, vec3f(0.0, 0.0, 0.5));
+    let is_nearby = dot(ray.origin, ray.origin) < NEARBY;
+    if is_nearby {
+        start = Anchored(ray.origin, 0.0);
+    }
     let o = start.origin;
     let d = ray.direction;
     var t0 = -FAR_AWAY;
@@ -108,7 +152,7 @@ fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
     let widening = slope * d.z;
     let a = dot(d.xy, d.xy) - widening * widening;
     let b = dot(o.xy, d.xy) - widening * radius;
-    let c = dot(o.xy, o.xy) - radius * radius;
+    let c = select(dot(o.xy, o.xy) - radius * radius, ray.outside.y, is_nearby);
     var inward = -FAR_AWAY;
     var outward = FAR_AWAY;
     // Where a t^2 + 2 b t + c falls and rises through zero, without cancellation, for any a.
@@ -159,10 +203,11 @@ fn cone_span(ray: LocalRay, r0: f32, r1: f32) -> Span {
 
 // Two balls and the cylinder between them: their union is convex.
 fn capsule_span(ray: LocalRay, length: f32) -> Span {
-    var span = united(ball_span(ray, vec3f(0.0)), ball_span(ray, vec3f(0.0, 0.0, length)));
+    let end = vec3f(0.0, 0.0, length);
+    var span = united(ball_span(ray, vec3f(0.0), ray.outside.x), ball_span(ray, end, ray.outside.z));
     if length > 0.0 {
         let squeeze = vec3f(1.0, 1.0, 1.0 / length);
-        span = united(span, cone_span(LocalRay(ray.origin * squeeze, ray.direction * squeeze), 1.0, 1.0));
+        span = united(span, cone_span(LocalRay(ray.origin * squeeze, ray.direction * squeeze, ray.outside), 1.0, 1.0));
     }
     span.entry_face = 0u;
     span.exit_face = 0u;

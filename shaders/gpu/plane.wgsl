@@ -5,7 +5,7 @@ struct LensRay {
     // The point of the picture.
     at: vec2f,
     is_moved: bool,
-    // Of a moved ray, around the eye.
+    // Of a moved ray.
     origin: vec3f,
     direction: vec3f,
 }
@@ -36,10 +36,12 @@ fn plane_crossing(part: u32, face: u32, ray: LensRay) -> PlaneCrossing {
         distance = dot(plane.xyz, ray.origin) - plane.w;
         rate = dot(plane.xyz, ray.direction);
     } else {
+        // Distance and rate of the ray of the picture's middle, and what a pixel's steps add.
         let k = lens_data[first];
-        let moving = k.y + k.z * ray.at.x + k.w * ray.at.y;
-        distance = select(moving, k.x, frame.perspective != 0u);
-        rate = select(k.x, moving, frame.perspective != 0u);
+        let from_middle = ray.at - frame.middle;
+        let across = k.z * from_middle.x + k.w * from_middle.y;
+        distance = k.x + across * frame.shares.x;
+        rate = k.y + across * frame.shares.y;
     }
     let t = clamp(-distance / select(rate, 1e-30, rate == 0.0), -FAR_AWAY, FAR_AWAY);
     return PlaneCrossing(t, rate, distance);

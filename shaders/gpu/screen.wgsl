@@ -82,7 +82,7 @@ fn seen_at(pixel: vec2u) -> Seen {
     let at = place(pixel);
     let depth = samples[at].depth;
     let ray = pixel_ray(pixel);
-    let span = 2.0 / frame.picture_scale * select(1.0, depth, frame.perspective != 0u);
+    let span = 2.0 / frame.picture_scale * select(1.0, frame.anchor + depth, frame.perspective != 0u);
     let found = min(samples[at].item, 1u);
     return Seen(found, depth, ray.origin + ray.direction * depth, samples[at].normal, span);
 }

@@ -164,7 +164,7 @@ fn look_up(op: Op, rank: u32, f: Fragment, at: Meeting, s: Surface, ray: PixelRa
     return Looked(reading, true);
 }
 
-// The quantity of a filter at the corners of a triangle: where the lenses above move its content from.
+// The quantity of a filter at the corners of a triangle, heights and depths counted from the view's origin: where the lenses above move its content from.
 fn corner_values(op: Op, rank: u32, item: u32, t: Triangle) -> vec3f {
     let quantity = op_quantity(op);
     if quantity == QUANTITY_VERTEX {
@@ -181,7 +181,7 @@ fn corner_values(op: Op, rank: u32, item: u32, t: Triangle) -> vec3f {
     if quantity == QUANTITY_DEPTH {
         return frame.forward.xyz * corners;
     }
-    return vec3f(corners[0].y, corners[1].y, corners[2].y) + vec3f(frame.eye.y);
+    return vec3f(corners[0].y, corners[1].y, corners[2].y);
 }
 
 // Of the numbers that values at corners come from: for positions those of the corners, and of where the item stands.
@@ -198,7 +198,7 @@ fn surface_of_material(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) 
     let item = f.item;
     let m = items[item].material;
     let view = -normalize(ray.direction);
-    let geometric = normalize_or(cross(t.b - t.a, t.c - t.a), vec3f(0.0));
+    let geometric = flat_normal(t.a, t.b, t.c);
     // White where there is no texture. One loop over all slots in use, so that the reading stands here once.
     var texels = array<vec4f, 5>(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
     var slots = select(0u, items[item].slots, TEXTURES);
@@ -209,7 +209,8 @@ fn surface_of_material(f: Fragment, t: Triangle, weights: vec3f, ray: PixelRay) 
         let read = read_at_corners(materials[m].slots[slot].texture, uv, t, weights, ray);
         texels[slot] = sample_texture(read.texture, read.uv, read.footprint);
     }
-    let position = t.a * weights.x + t.b * weights.y + t.c * weights.z;
+    // Not from the corners, which may be far off.
+    let position = ray.origin + ray.direction * f.depth;
     var s = untextured(item, position, shading_normal(item, t, weights, geometric, view, texels[SLOT_NORMAL].xyz), ray);
     if VERTEX_COLORS && items[item].colors != NONE {
         s.factor *= interpolated4(items[item].colors, t.corners, weights);

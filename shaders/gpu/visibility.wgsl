@@ -17,14 +17,14 @@ fn vertex(
 ) -> Varying {
     let p = shown_corner(local, shown);
     let depth = dot(p, frame.forward.xyz);
-    let position = clip_position(p, depth, drawn_depth(depth));
+    let position = clip_position(p, depth, place_between_planes(depth));
     // Of a triangle its first corner counts, and each has a first corner of its own: see `provoking.rs`.
     return Varying(position, item, vertex - shown.base_vertex, depth);
 }
 
-// Reverse-Z: infinite far plane in perspective, linear otherwise.
+// Reverse-Z over what there is to be drawn: 1 to 0, linear for an orthographic camera.
 fn drawn_depth(depth: f32) -> f32 {
-    return select((frame.far - depth) / (frame.far - frame.near), frame.near / depth, frame.perspective != 0u);
+    return place_between_planes(depth) * select(1.0, frame.drawn_from_eye / (frame.anchor + depth), frame.perspective != 0u);
 }
 
 // For items that no lens can remove or make translucent and that lie between near and far.
@@ -37,14 +37,18 @@ fn plain(in: Varying) -> @location(0) vec2u {
 @fragment
 fn fused(in: Varying) -> Kept {
     let pixel = vec2u(in.position.xy);
-    if in.depth < frame.near || in.depth > frame.far {
+    var depth = in.depth;
+    if has_planes(in.item) {
+        depth = meeting(in.item, in.triangle, pixel_ray(pixel)).hit.depth;
+    }
+    if depth < frame.near || depth > frame.far {
         discard;
     }
     if !TAKEN_AWAY && !TRANSLUCENT {
-        return kept(vec2u(in.item + 1u, in.triangle), in.position.z);
+        return kept(vec2u(in.item + 1u, in.triangle), z_of(in, depth));
     }
-    let around = set_at(tile_at(pixel), pixel, in.depth);
-    let at = keep(in, Place(in.depth, in.position.z, 0u), pixel, pixel_ray(pixel), around);
+    let around = set_at(tile_at(pixel), pixel, depth);
+    let at = keep(in, Place(depth, z_of(in, depth), 0u), pixel, pixel_ray(pixel), around);
     return kept(at.found, at.z);
 }
 
@@ -68,8 +72,8 @@ fn fused_in_planes(in: Varying) -> KeptAt {
 @fragment
 fn peel(in: Varying) -> Kept {
     let ray = pixel_ray(vec2u(in.position.xy));
-    let depth = surface_hit(ray, fetch_triangle(in.item, in.triangle)).depth;
-    let at = keep_in_layer(in, Place(depth, in.position.z, 0u), ray);
+    let depth = surface_hit(in.item, in.triangle, ray, fetch_triangle(in.item, in.triangle)).depth;
+    let at = keep_in_layer(in, Place(depth, z_of(in, depth), 0u), ray);
     return kept(at.found, at.z);
 }
 
@@ -128,13 +132,21 @@ fn place_of(in: Varying, ray: PixelRay) -> Place {
         let rank = lens_words[in_plane + 1u];
         return Place(hit.depth, ranked(drawn_depth(hit.depth), rank), rank);
     }
-    return Place(hit.depth, in.position.z, 0u);
+    return Place(hit.depth, z_of(in, hit.depth), 0u);
 }
 
 // What a fragment of the scene leaves, and how near it is drawn.
 struct KeptAt {
     @location(0) found: vec2u,
     @builtin(frag_depth) z: f32,
+}
+
+// The drawn depth of a fragment.
+fn z_of(in: Varying, depth: f32) -> f32 {
+    if has_planes(in.item) {
+        return drawn_depth(depth);
+    }
+    return in.position.z;
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.

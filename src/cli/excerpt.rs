@@ -65,9 +65,14 @@ fn kept(text: &str, line: Range<usize>, places: &[Range<usize>]) -> Range<usize>
         return line;
     }
     let meant = places.iter().find(|place| line.contains(&place.start)).map_or(line.start, |place| place.start);
-    let start = text.floor_char_boundary(meant.saturating_sub(BEFORE).max(line.start));
+    let start = char_start(text, meant.saturating_sub(BEFORE).max(line.start));
     let start = if start - line.start < BEFORE { line.start } else { start };
-    start..text.floor_char_boundary((start + SHOWN).min(line.end))
+    start..char_start(text, (start + SHOWN).min(line.end))
+}
+
+/// The last place up to `at` where a character starts.
+fn char_start(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|place| text.is_char_boundary(*place)).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 use glam::{Mat3A, Vec3A, Vec4};
 use obvhs::bvh2::node::Bvh2Node;
 
-use super::geometry::{Geometry, Reach, Triangle};
+use super::geometry::{self, Geometry, Triangle};
 use super::intersect::{ShearedRay, TriangleHit};
 use crate::lens::PixelRect;
 use crate::view::{Projection, View};
@@ -78,17 +78,17 @@ pub struct Camera {
     /// The pixel that the eye looks at.
     center: [f32; 2],
     perspective: bool,
-    /// The depth at which rays start.
-    start: f32,
+    /// How far the eye of a perspective camera is before the anchor.
+    eye: f32,
 }
 
 impl Camera {
     pub fn new(view: &View) -> Self {
-        let reach = Reach::new(view);
+        let traced = geometry::scale(view);
         let height = f64::from(view.size[1]);
         let scale = match view.projection {
             Projection::Perspective { tan_half_y } => 0.5 * height / tan_half_y,
-            Projection::Orthographic { half_height } => 0.5 * height / half_height / reach.scale,
+            Projection::Orthographic { half_height } => 0.5 * height / half_height / traced,
         };
         let rows = [view.right, view.up, view.forward].map(|axis| Vec3A::from(axis.as_vec3()));
         Self {
@@ -96,7 +96,7 @@ impl Camera {
             scale: scale as f32,
             center: view.size.map(|length| 0.5 * length as f32),
             perspective: view.is_perspective(),
-            start: (reach.start * reach.scale) as f32,
+            eye: if view.is_perspective() { (view.anchor.depth * traced) as f32 } else { 0.0 },
         }
     }
 
@@ -111,7 +111,11 @@ impl Camera {
         let axes = self.camera_from_traced.transpose();
         let (right, up, forward) = (axes.x_axis * self.scale, axes.y_axis * self.scale, axes.z_axis);
         let plane = |axis: Vec3A, limit: f32, sign: f32| {
-            if self.perspective { (axis - forward * limit).extend(0.0) * sign } else { axis.extend(-limit) * sign }
+            // The sides of a pyramid go through the eye.
+            match self.perspective {
+                true => (axis - forward * limit).extend(-limit * self.eye) * sign,
+                false => axis.extend(-limit) * sign,
+            }
         };
         let planes = [
             plane(right, limits[0][0], 1.0),
@@ -122,11 +126,6 @@ impl Camera {
         let column = |i: usize| Vec4::new(planes[0][i], planes[1][i], planes[2][i], planes[3][i]);
         let offset = column(3);
         Beam { normals: [column(0), column(1), column(2)], offset: offset + offset.abs() * ROUNDING, forward }
-    }
-
-    /// No more than the parameter of a ray at a depth of the space of the geometry.
-    fn parameter(&self, depth: f32) -> f32 {
-        depth - self.start - ROUNDING * self.start.abs()
     }
 }
 
@@ -189,7 +188,7 @@ impl BlockRays {
         let beam = camera.beam(block, range);
         let nodes = &geometry.bvh.nodes;
         self.stack.clear();
-        self.stack.extend(nodes.first().and_then(|root| beam.nearest(root)).map(|depth| (0, camera.parameter(depth))));
+        self.stack.extend(nodes.first().and_then(|root| beam.nearest(root)).map(|nearest| (0, nearest)));
         let mut latest = self.latest();
         let mut shortened = 0;
         while let Some((number, nearest)) = self.stack.pop() {
@@ -202,8 +201,8 @@ impl BlockRays {
             let node = &nodes[number as usize];
             if !node.is_leaf() {
                 let place = |child: u32| {
-                    let depth = beam.nearest(&nodes[child as usize])?;
-                    Some((child, camera.parameter(depth))).filter(|(_, nearest)| *nearest <= latest)
+                    let nearest = beam.nearest(&nodes[child as usize])?;
+                    Some((child, nearest)).filter(|(_, nearest)| *nearest <= latest)
                 };
                 let (a, b) = (place(node.first_index), place(node.first_index + 1));
                 let swap = matches!((a, b), (Some(a), Some(b)) if a.1 < b.1);
@@ -213,15 +212,14 @@ impl BlockRays {
             }
             let leaf = node.first_index as usize..(node.first_index + node.prim_count) as usize;
             for triangle in &geometry.triangles[leaf] {
-                let Some((covered, depth)) = camera.covered(triangle, block, range) else { continue };
-                let nearest = camera.parameter(depth);
+                let Some((covered, nearest)) = camera.covered(triangle, block, range) else { continue };
                 for row in covered.min[1]..covered.max[1] {
                     for column in covered.min[0]..covered.max[0] {
                         let ray = (row * block.columns() + column) as usize;
                         if nearest > self.ends[ray] {
                             continue;
                         }
-                        let Some(hit) = self.rays[ray].hit(&triangle.corners) else { continue };
+                        let Some(hit) = geometry.hit(&self.rays[ray], triangle) else { continue };
                         if hit.t > self.ends[ray] {
                             continue;
                         }
@@ -257,15 +255,16 @@ impl Camera {
         let max = corners[0].max(corners[1]).max(corners[2]);
         let room = min.abs().max(max.abs()).element_sum() * ROUNDING;
         let depth = min.z - room;
-        if self.perspective && depth <= 0.0 {
+        let from_eye = depth + self.eye;
+        if self.perspective && from_eye <= ROUNDING * self.eye {
             // It may reach behind the eye: anywhere.
-            return (max.z + room >= 0.0).then_some((*range, depth));
+            return (max.z + self.eye + room >= 0.0).then_some((*range, depth));
         }
         let (low, high, room) = if self.perspective {
-            let flat = corners.map(|p| p * (self.scale / p.z));
+            let flat = corners.map(|p| p * (self.scale / (p.z + self.eye)));
             let low = flat[0].min(flat[1]).min(flat[2]);
             let high = flat[0].max(flat[1]).max(flat[2]);
-            (low, high, room * self.scale / depth)
+            (low, high, room * self.scale / from_eye)
         } else {
             (min * self.scale, max * self.scale, room * self.scale)
         };
@@ -285,13 +284,11 @@ impl Camera {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use glam::{DVec3, Vec3};
-    use obvhs::BvhBuildParams;
-    use obvhs::bvh2::builder::build_bvh2;
 
     use super::*;
+    use crate::cpu::geometry::NONE;
+    use crate::view::Anchor;
 
     fn view(projection: Projection) -> View {
         let forward = DVec3::new(0.3, -0.2, -1.0).normalize();
@@ -302,6 +299,7 @@ mod tests {
             up: right.cross(forward),
             forward,
             projection,
+            anchor: Anchor::default(),
             near: 0.01,
             far: 50.0,
             size: [61, 37],
@@ -320,25 +318,23 @@ mod tests {
             .map(|index| {
                 let (center, size) = (point(16.0), if index % 5 == 0 { 8.0 } else { 0.5 });
                 let corners = [0; 3].map(|_| scale * (center + point(size)));
-                Triangle { corners, instance: 0, index }
+                Triangle { corners, instance: 0, index, exact: NONE }
             })
             .collect()
     }
 
     fn geometry(triangles: &[Triangle]) -> Geometry {
-        let bvh = build_bvh2(triangles, BvhBuildParams::very_fast_build(), &mut Duration::default());
-        let triangles = bvh.primitive_indices.iter().map(|i| triangles[*i as usize]).collect();
-        Geometry { bvh, triangles }
+        Geometry::of_triangles(triangles.to_vec(), Vec::new())
     }
 
     fn sheared(view: &View, (x, y): (f64, f64)) -> ShearedRay {
-        let (ray, reach) = (view.ray(x, y), Reach::new(view));
-        ShearedRay::new((ray.at(reach.start) * reach.scale).as_vec3(), ray.direction.as_vec3())
+        let ray = view.ray(x, y);
+        ShearedRay::new((ray.origin - view.origin()) * geometry::scale(view), ray.direction)
     }
 
     /// All hits of a block's rays, and those that are found one ray and one triangle at a time.
     fn both(view: &View, block: &Block, range: &PixelRect) -> [Vec<(usize, u32)>; 2] {
-        let triangles = cloud(400, Reach::new(view).scale as f32);
+        let triangles = cloud(400, geometry::scale(view) as f32);
         let rays: Vec<ShearedRay> = (0..block.len()).map(|sample| sheared(view, block.point(sample))).collect();
         let mut bundle = BlockRays::default();
         bundle.start(rays.iter().copied(), f32::MAX);

@@ -9,7 +9,7 @@ use crate::appearance as wgsl;
 use crate::custom::SurfaceValue;
 use crate::plan::Plan;
 
-/// Where a filter acts: around the eye, along the world's axes.
+/// Where a filter acts: around the view's origin, along the world's axes.
 pub struct Site<'a> {
     pub plan: &'a Plan,
     pub position: Vec3,
@@ -21,7 +21,7 @@ impl Site<'_> {
     fn seen(&self, s: &wgsl::Surface) -> SurfaceValue {
         let view = &self.plan.view;
         SurfaceValue {
-            position: (self.position + view.eye.as_vec3()).to_array(),
+            position: (self.position.as_dvec3() + view.origin()).as_vec3().to_array(),
             normal: g3(s.normal).to_array(),
             view: g3(s.view).to_array(),
             base_color: g3(wgsl::base_color(*s)).to_array(),
@@ -32,7 +32,7 @@ impl Site<'_> {
             opacity: wgsl::surface_opacity(*s),
             unlit: s.unlit,
             pixel: g2(s.pixel).to_array(),
-            depth: self.position.dot(view.forward.as_vec3()),
+            depth: view.from_eye(self.position.as_dvec3().dot(view.forward)) as f32,
         }
     }
 

@@ -75,13 +75,14 @@ fn silhouette(plan: &Plan, part: &Solid, ray: &Ray, span: &Span, pixel: &wgsl::P
         return flat_silhouette(plan, part, pixel);
     }
     // Around the eye a volume has no outline.
-    if plan.view.is_perspective() && span.entry.t <= 0.0 {
+    if plan.view.is_perspective() && plan.view.from_eye(span.entry.t) <= 0.0 {
         return f32::INFINITY;
     }
     let normal = |c: &Crossing| d3(part.normal(ray, c));
     let join = part.form.is_smooth_join(span.entry.face, span.exit.face);
     wgsl::silhouette_distance(
         *pixel,
+        plan.view.anchor.depth as f32,
         span.entry.t as f32,
         normal(&span.entry),
         span.exit.t as f32,
@@ -93,11 +94,12 @@ fn silhouette(plan: &Plan, part: &Solid, ray: &Ray, span: &Span, pixel: &wgsl::P
 /// A flat part is outlined by its polygon.
 fn flat_silhouette(plan: &Plan, part: &Solid, pixel: &wgsl::PixelRay) -> f32 {
     let corners = &part.hull;
-    let around_eye = |p: glam::DVec3| d3(p - plan.view.eye);
+    let origin = plan.view.origin();
+    let around = |p: glam::DVec3| d3(p - origin);
     (0..corners.len())
         .map(|i| {
             let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
-            wgsl::edge_distance(*pixel, around_eye(a), around_eye(b))
+            wgsl::edge_distance(*pixel, around(a), around(b))
         })
         .fold(f32::INFINITY, f32::min)
 }

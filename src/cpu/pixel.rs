@@ -12,17 +12,17 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::block::{Block, BlockRays, Camera};
 use super::convert::{d3, v2};
-use super::geometry::{Geometry, Reach, Triangle};
+use super::geometry::{self, Geometry, Triangle};
 use super::glass::GlassHits;
 use super::intersect::ShearedRay;
 use super::shade::{Shaded, Shader};
 use crate::appearance as wgsl;
 use crate::frame::InFront;
-use crate::lens::{PixelRect, RayLayers, starts_boundary};
+use crate::lens::{PixelRect, RayLayers};
 use crate::pixel::{Fragment, PixelReport, Survivor, Visible, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Plan, Region, Verdict};
 use crate::scene::Scene;
-use crate::view::Ray;
+use crate::view::{Merging, Ray};
 
 use caps::{Crossing, CutBodies};
 use moved::MovedLayers;
@@ -36,7 +36,8 @@ pub struct Tracer<'a> {
     cut: Option<CutBodies>,
     shader: Shader<'a>,
     camera: Camera,
-    reach: Reach,
+    /// At which rays are traced.
+    scale: f64,
     /// Lenses whose filters may make a fragment translucent.
     translucent: LensSet,
     /// For each instance: the lenses and rules without which all of it is there and opaque; `None` where it may be
@@ -112,7 +113,7 @@ impl<'a> Tracer<'a> {
             cut: CutBodies::new(scene, plan),
             shader: Shader::new(scene, plan),
             camera: Camera::new(&plan.view),
-            reach: Reach::new(&plan.view),
+            scale: geometry::scale(&plan.view),
             translucent: plan.translucent(),
             altered_by: plan.instances.iter().map(altered_by).collect(),
             anywhere,
@@ -196,10 +197,7 @@ impl<'a> Tracer<'a> {
     }
 
     fn sheared<'r>(&self, rays: &'r [OneRay]) -> impl Iterator<Item = ShearedRay> + use<'_, 'r, 'a> {
-        rays.iter().map(|one| {
-            let (origin, direction) = self.traced(&one.ray);
-            ShearedRay::new(origin, direction)
-        })
+        rays.iter().map(|one| self.traced(&one.ray))
     }
 
     /// Cuts a ray into layers.
@@ -266,7 +264,7 @@ impl<'a> Tracer<'a> {
         let mut passed = LensSet::EMPTY;
         let mut glass = surfaces.hits.iter().peekable();
         for fragment in fragments(sample, one, listed) {
-            while let Some(hit) = glass.next_if(|hit| is_in_front(hit.depth, fragment)) {
+            while let Some(hit) = glass.next_if(|hit| is_in_front(hit.depth, fragment, &ray.merging)) {
                 front = over(front, hit.color.truncate(), hit.color.w);
             }
             let Shaded { color, opacity, coverage, normal } = self.shader.shade(fragment, pixel, passed);
@@ -332,19 +330,16 @@ impl<'a> Tracer<'a> {
 
     /// From a ray's parameter in the space of the geometry to a depth, and back.
     fn depth(&self, parameter: f32) -> f32 {
-        (f64::from(parameter) / self.reach.scale + self.reach.start) as f32
+        (f64::from(parameter) / self.scale) as f32
     }
 
     fn parameter(&self, depth: f64) -> f32 {
-        ((depth - self.reach.start) * self.reach.scale) as f32
+        (depth * self.scale) as f32
     }
 
-    /// Origin and direction of a ray in the space of the geometry.
-    fn traced(&self, ray: &Ray) -> (Vec3, Vec3) {
-        let Reach { start, scale } = self.reach;
-        let origin = ((ray.at(start) - self.plan.view.eye) * scale).as_vec3();
-        // The BVH takes -0 for a negative direction in one place and for a positive one in another: no -0 here.
-        (origin, ray.direction.as_vec3() + Vec3::ZERO)
+    /// A ray in the space of the geometry.
+    fn traced(&self, ray: &Ray) -> ShearedRay {
+        ShearedRay::new((ray.origin - self.plan.view.origin()) * self.scale, ray.direction)
     }
 
     fn verdict(&self, ray: &Ray, instance: u32, depth: f32, layers: &RayLayers, moved: &mut MovedLayers) -> Verdict {
@@ -381,7 +376,8 @@ impl<'a> Tracer<'a> {
         }
         let [a, b, c] = triangle.corners;
         let mirrored = self.scene.models[item.model].nodes[item.node].world_from_local.matrix3.determinant() < 0.0;
-        ((b - a).cross(c - a).dot(self.traced(ray).1) > 0.0) != mirrored
+        let [a, b, c] = [a, b, c].map(|p| p.as_dvec3());
+        ((b - a).cross(c - a).dot(ray.direction) > 0.0) != mirrored
     }
 
     /// Nearest first; at equal depths by content, node, primitive and triangle, where a cap comes first.
@@ -390,20 +386,18 @@ impl<'a> Tracer<'a> {
         (fragment.depth, self.item(fragment.instance).first_triangle + number)
     }
 
-    /// A ray around the eye, for shading; `at`: the point of the picture, in pixels.
+    /// A ray around the view's origin, for shading; `at`: the point of the picture, in pixels.
     fn pixel_ray(&self, ray: &Ray, at: Vec2) -> wgsl::PixelRay {
         let view = &self.plan.view;
         let (right, down) = view.pixel_steps();
-        let none = glam::DVec3::ZERO;
-        let (origin_steps, direction_steps) =
-            if view.is_perspective() { ((none, none), (right, down)) } else { ((right, down), (none, none)) };
+        let [origin, direction] = view.shares();
         wgsl::PixelRay {
-            origin: d3(ray.origin - view.eye),
+            origin: d3(ray.origin - view.origin()),
             direction: d3(ray.direction),
-            origin_dx: d3(origin_steps.0),
-            origin_dy: d3(origin_steps.1),
-            direction_dx: d3(direction_steps.0),
-            direction_dy: d3(direction_steps.1),
+            origin_dx: d3(right * origin),
+            origin_dy: d3(down * origin),
+            direction_dx: d3(right * direction),
+            direction_dy: d3(down * direction),
             pixel: v2(at),
         }
     }
@@ -425,9 +419,9 @@ fn seen_range(block: &Block, seen_by: &Option<LensSet>, rays: &[OneRay]) -> Opti
 }
 
 /// Whether a lens surface is in front of a fragment. A cap lies in one, and covers it whatever rounding makes of that.
-fn is_in_front(glass: f64, fragment: &Fragment) -> bool {
+fn is_in_front(glass: f64, fragment: &Fragment, merging: &Merging) -> bool {
     let depth = f64::from(fragment.depth);
-    if cap_maker(fragment.triangle).is_some() { starts_boundary(glass, depth) } else { glass < depth }
+    if cap_maker(fragment.triangle).is_some() { merging.starts_boundary(glass, depth) } else { glass < depth }
 }
 
 fn over(front: Vec4, back: Vec3, alpha: f32) -> Vec4 {

@@ -161,7 +161,7 @@ impl<'a> Renderer<'a> {
         Ok(aovs)
     }
 
-    /// The depth at which the ray of each pixel's centre surely ends, infinite where nothing opaque is: primary visibility
+    /// The depth, from the anchor, at which the ray of each pixel's centre surely ends, infinite where nothing opaque is: primary visibility
     /// and nothing else.
     pub fn depths(&self) -> Vec<f32> {
         let [width, height] = self.plan.view.size;
@@ -350,7 +350,7 @@ impl<'a> Renderer<'a> {
         maps.triangles[at] = visible.fragment.triangle;
         let item = self.plan.instances[visible.fragment.instance as usize].item;
         maps.nodes[at] = self.plan.items[item].node as u32 + 1;
-        maps.depth[at] = visible.fragment.depth;
+        maps.depth[at] = self.plan.view.from_eye(f64::from(visible.fragment.depth));
         maps.normals[at] = visible.normal.to_array();
     }
 }

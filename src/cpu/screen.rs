@@ -53,10 +53,10 @@ impl Plane {
         let (view, depth) = (&plan.view, f64::from(fragment.depth));
         let ray = view.ray(f64::from(x) + self.at[0], f64::from(y) + self.at[1]);
         let span = match view.projection {
-            Projection::Perspective { tan_half_y } => 2.0 * tan_half_y * depth,
+            Projection::Perspective { tan_half_y } => 2.0 * tan_half_y * view.from_eye(depth),
             Projection::Orthographic { half_height } => 2.0 * half_height,
         };
-        let position = d3(ray.at(depth) - view.eye);
+        let position = d3(ray.at(depth) - view.origin());
         let seen = wgsl::Seen { found: 1, depth: fragment.depth, position, normal: v3(*normal), span: span as f32 };
         let Region { set, stack } = fragment.region;
         let is_cap = cap_maker(fragment.triangle).is_some();

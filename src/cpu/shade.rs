@@ -4,7 +4,7 @@ mod cap;
 
 use std::sync::atomic::AtomicU64;
 
-use glam::{DAffine3, Vec2, Vec3, Vec4};
+use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
 use super::convert::{a4, d3, g2, g3, g4, light, v2, v3, v4};
 use super::custom::Site;
@@ -26,7 +26,9 @@ pub struct Shader<'a> {
     transforms: Vec<Transform>,
     /// Of each item, for each of the plan's channels, where it has one.
     values: Vec<Vec<Option<VertexValues<'a>>>>,
-    forward: Vec3,
+    forward: DVec3,
+    /// Of the view: positions are relative to it, along the world's axes.
+    origin: DVec3,
     /// Loop iterations that the user's own filters have taken for the picture.
     pub spent: AtomicU64,
     /// Of each body, where caps show its own colours.
@@ -35,9 +37,9 @@ pub struct Shader<'a> {
     bodies: Vec<Option<u32>>,
 }
 
-/// From local space to the world's axes around the eye as shown: for points, and for normals.
+/// From local space to the world's axes around the view's origin as shown: for points, and for normals.
 struct Transform {
-    point: glam::Affine3A,
+    point: DAffine3,
     normal: glam::Mat3,
     /// -1 where it mirrors, else 1: a mirror turns the bitangent of a tangent and a normal round.
     side: f32,
@@ -60,20 +62,20 @@ struct Hit<'h, 'a> {
     instance: &'h Instance,
     corners: &'h Corners<'a>,
     weights: Vec3,
-    /// Around the eye.
+    /// Around the view's origin.
     position: Vec3,
     /// For shading.
     normal: Vec3,
     ray: &'h wgsl::PixelRay,
 }
 
-/// A triangle of an item with its corners around the eye, along the world's axes.
+/// A triangle of an item with its corners around the view's origin, along the world's axes.
 struct Corners<'a> {
     primitive: &'a Primitive,
     indices: [usize; 3],
     around: [Vec3; 3],
-    /// From local space to around the eye.
-    to_eye: &'a glam::Affine3A,
+    /// From local space to around the view's origin.
+    to_origin: &'a DAffine3,
     /// Into the item's triangles; `None`: a piece of a cap, at whose corners the primitive has no vertices.
     triangle: Option<usize>,
 }
@@ -88,7 +90,7 @@ impl Hit<'_, '_> {
         if quantity == wgsl::QUANTITY_VERTEX.0 {
             return largest(values);
         }
-        let origin = self.corners.triangle.map_or(Vec3::ZERO, |_| self.corners.to_eye.translation.into());
+        let origin = self.corners.triangle.map_or(Vec3::ZERO, |_| self.corners.to_origin.translation.as_vec3());
         self.corners.around.map(largest).into_iter().fold(0.0, f32::max) + largest(origin)
     }
 }
@@ -104,8 +106,8 @@ impl Corners<'_> {
 
     /// Of the triangle, unit length; zero for one without area.
     fn normal(&self) -> Vec3 {
-        let [a, b, c] = self.around;
-        (b - a).cross(c - a).normalize_or_zero()
+        let [a, b, c] = self.around.map(v3);
+        g3(wgsl::flat_normal(a, b, c))
     }
 
     /// Texture coordinates of the corners in one set; zero where the primitive has none.
@@ -142,16 +144,19 @@ fn untextured(material: &MaterialRecord, position: Vec3, normal: Vec3, ray: &wgs
 
 impl<'a> Shader<'a> {
     pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
+        let origin = plan.view.origin();
         let transforms = plan
             .instances
             .iter()
             .map(|instance| {
                 let item = &plan.items[instance.item];
                 let mut around = instance.shown_from_world * scene.models[item.model].nodes[item.node].world_from_local;
-                around.translation -= plan.view.eye;
+                around.translation -= origin;
                 let side = if around.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
-                let normal = around.matrix3.inverse().transpose().as_mat3();
-                Transform { point: around.as_affine3a(), normal, side }
+                let normal = around.matrix3.inverse().transpose();
+                let largest = normal.to_cols_array().into_iter().map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
+                let normal = (normal * largest.recip()).as_mat3();
+                Transform { point: around, normal, side }
             })
             .collect();
         let values = |item: &Item| {
@@ -172,11 +177,12 @@ impl<'a> Shader<'a> {
             own: plan.bodies.iter().map(|body| OwnSurface::new(scene, plan, body)).collect(),
             bodies,
             values: plan.items.iter().map(values).collect(),
-            forward: plan.view.forward.as_vec3(),
+            forward: plan.view.forward,
+            origin,
             scene,
             plan,
             ops: plan.ops.iter().map(Op::shader).collect(),
-            lights: plan.lighting.lights.iter().map(|l| light(&l.around(plan.view.eye))).collect(),
+            lights: plan.lighting.lights.iter().map(light).collect(),
             up: plan.lighting.up,
             transforms,
         }
@@ -256,7 +262,7 @@ impl<'a> Shader<'a> {
         {
             let [a, b, c] = [0, 1, 2].map(|step| around[(i + step) % 3]);
             let opposite = across.opposite().and_then(|vertex| mesh.vertex(vertex)).unwrap_or_default();
-            let opposite = v3(hit.corners.to_eye.transform_point3(opposite));
+            let opposite = v3(hit.corners.to_origin.transform_point3(opposite.as_dvec3()).as_vec3());
             spot = wgsl::spot_by_edge(spot, *hit.ray, a, b, c, kind(across.kind()), opposite);
             for (end, beyond) in [a, b].into_iter().zip(edges.beyond(i)) {
                 let (across, beyond) = (kind(across.kind()), kind(beyond));
@@ -277,9 +283,9 @@ impl<'a> Shader<'a> {
     fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'_> {
         let primitive = item.primitive_of(self.scene);
         let indices = item.triangle_list(self.scene)[fragment.triangle as usize].map(|i| i as usize);
-        let to_eye = &self.transforms[fragment.instance as usize].point;
-        let around = indices.map(|i| to_eye.transform_point3(primitive.positions[i]));
-        Corners { primitive, indices, around, to_eye, triangle: Some(fragment.triangle as usize) }
+        let to_origin = &self.transforms[fragment.instance as usize].point;
+        let around = indices.map(|i| to_origin.transform_point3(primitive.positions[i].as_dvec3()).as_vec3());
+        Corners { primitive, indices, around, to_origin, triangle: Some(fragment.triangle as usize) }
     }
 
     /// The surface as its material has it.
@@ -302,7 +308,8 @@ impl<'a> Shader<'a> {
         }
         let metal_rough = texel(&material.metallic_roughness_texture);
         let occlusion = texel(&material.occlusion_texture).x;
-        let position = corners.around[0] * weights.x + corners.around[1] * weights.y + corners.around[2] * weights.z;
+        // Not from the corners, which may be far off.
+        let position = g3(ray.origin) + g3(ray.direction) * fragment.depth;
         let normal = self.normal(material, fragment, corners, geometric, view, ray);
         wgsl::Surface {
             factor: v4(factor),
@@ -335,7 +342,8 @@ impl<'a> Shader<'a> {
             let tangent = match &corners.primitive.tangents {
                 Some(tangents) => {
                     let t = corners.interpolated(tangents, weights);
-                    let along = transform.point.transform_vector3(t.truncate()).normalize_or_zero();
+                    let along =
+                        transform.point.transform_vector3(t.truncate().as_dvec3()).as_vec3().normalize_or_zero();
                     along.extend(t.w.signum() * transform.side)
                 }
                 None => {
@@ -376,9 +384,14 @@ impl<'a> Shader<'a> {
 
     /// Where a filter of the user's own acts on what is shown at `position`; `None` for any other.
     fn custom(&self, op: &wgsl::Op, position: Vec3, source: impl Fn() -> DAffine3) -> Option<Site<'_>> {
-        let eye = self.plan.view.eye;
-        let from_eye = || (source().transform_point3(position.as_dvec3() + eye) - eye).as_vec3();
-        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_eye(), spent: &self.spent })
+        let from_origin = || self.source_around(&source(), position).as_vec3();
+        (op.kind == wgsl::OP_WGSL.0).then(|| Site { plan: self.plan, position: from_origin(), spent: &self.spent })
+    }
+
+    /// Where a filter acts on what is shown at `position`, relative to the view's origin like it. `source`: from the shown
+    /// point to there.
+    fn source_around(&self, source: &DAffine3, position: Vec3) -> DVec3 {
+        source.transform_point3(position.as_dvec3() + self.origin) - self.origin
     }
 
     /// What a filter looks up; `None` where it does not act, as the surface has no such value. `source`: from the shown
@@ -408,7 +421,7 @@ impl<'a> Shader<'a> {
         Some(reading)
     }
 
-    /// A quantity at the corners of a triangle.
+    /// A quantity at the corners of a triangle: a height or a depth counted from the view's origin.
     fn corner_values(&self, quantity: u32, channel: u32, hit: &Hit, source: impl Fn() -> DAffine3) -> Option<Vec3> {
         if quantity == wgsl::QUANTITY_VERTEX.0 {
             if hit.corners.triangle.is_none() {
@@ -417,13 +430,12 @@ impl<'a> Shader<'a> {
             let (values, factor) = self.values[hit.instance.item][channel as usize]?;
             return Some(Vec3::from_array(hit.corners.indices.map(|i| values[i] * factor)));
         }
-        let (source, eye) = (source(), self.plan.view.eye);
-        let from_eye = |around: Vec3| (source.transform_point3(around.as_dvec3() + eye) - eye).as_vec3();
-        let values = hit.corners.around.map(|around| match quantity {
-            q if q == wgsl::QUANTITY_DEPTH.0 => from_eye(around).dot(self.forward),
-            _ => from_eye(around).y + eye.y as f32,
+        let source = source();
+        let values = hit.corners.around.map(|around| {
+            let acts = self.source_around(&source, around);
+            if quantity == wgsl::QUANTITY_DEPTH.0 { acts.dot(self.forward) } else { acts.y }
         });
-        Some(Vec3::from_array(values))
+        Some(DVec3::from_array(values).as_vec3())
     }
 
     /// The texel of a `texture` filter; `source`: from the shown point to where the filter acts.
@@ -437,7 +449,7 @@ impl<'a> Shader<'a> {
             return self.sample(op.texture, corners.uv(0).map(|uv| uv * scale), corners, weights, ray);
         }
         let space = &self.plan.texture_space;
-        let mapped = source.transform_point3(position.as_dvec3() + self.plan.view.eye) - space.origin.as_dvec3();
+        let mapped = source.transform_point3(position.as_dvec3() + self.origin) - space.origin;
         let uv = g2(wgsl::projected_uv(op.flags, v3(mapped.as_vec3() * space.scale), v3(normal))) * scale;
         let size = texture::size(&self.scene.textures, op.texture);
         // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
@@ -463,12 +475,12 @@ fn steps_at_source(source: &DAffine3, shown: wgsl::PlaneSteps) -> wgsl::PlaneSte
     wgsl::PlaneSteps { right: moved(shown.right), down: moved(shown.down) }
 }
 
-/// How much the filters of a lens, or of a rule, count on a fragment shown at `position` (around the eye).
+/// How much the filters of a lens, or of a rule, count on a fragment shown at `position` (around the view's origin).
 pub fn soft_amount(plan: &Plan, rank: usize, instance: &Instance, position: Vec3) -> f32 {
     let Some(lens) = plan.lenses.get(rank).filter(|lens| lens.soft > 0.0) else { return 1.0 };
     let asked = match lens.by {
         By::Pixel => {
-            let shown = position.as_dvec3() + plan.view.eye;
+            let shown = position.as_dvec3() + plan.view.origin();
             instance.source_from_shown(rank, false).transform_point3(shown)
         }
         By::Object => plan.items[instance.item].center,

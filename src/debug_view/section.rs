@@ -82,11 +82,13 @@ pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs, row: &Row) -> Frame {
     let height =
         (plot.min[1] + plot.size[1] + STRIP + 2 * LINE).max(legend_at[1] + legend_height + MARGIN + thumbnail.size[1]);
     let mut canvas = Canvas::new([legend_at[0] + legend_width + MARGIN, height + MARGIN], GROUND);
+    let from_eye = |depth: f64| plan.view.from_eye(depth);
     for (column, layers) in row.layers.iter().enumerate() {
         for (i, start) in layers.iter().enumerate() {
-            let end = layers.get(i + 1).map_or(plan.view.far, |next| next.depth);
+            let [start_depth, end] =
+                [start.depth, layers.get(i + 1).map_or(plan.view.far, |next| next.depth)].map(from_eye);
             let color = if start.set.is_empty() { EMPTY } else { mix(EMPTY, colors.color(&region(start)), 0.85) };
-            let (top, bottom) = (plot.y(end), plot.y(start.depth));
+            let (top, bottom) = (plot.y(end), plot.y(start_depth));
             canvas.fill([plot.x(column), top], [zoom, bottom - top + 1], color);
         }
     }
@@ -98,19 +100,20 @@ pub fn draw(plan: &Plan, picture: &Frame, aovs: &Aovs, row: &Row) -> Frame {
     canvas.into_frame()
 }
 
-/// The depths between which something is to be seen, with a little more on both sides.
+/// The depths from the eye between which something is to be seen, with a little more on both sides.
 fn depths(plan: &Plan, columns: usize, aovs: &Aovs, row: &Row) -> [f64; 2] {
-    let boundaries = row.layers.iter().flat_map(|layers| layers.iter().skip(1)).map(|start| start.depth);
+    let from_eye = |depth: f64| plan.view.from_eye(depth);
+    let boundaries = row.layers.iter().flat_map(|layers| layers.iter().skip(1)).map(|start| from_eye(start.depth));
     let seen = &aovs.depth[row.y as usize * columns..][..columns];
-    let seen = seen.iter().filter(|depth| depth.is_finite()).map(|depth| f64::from(*depth));
+    let seen = seen.iter().copied().filter(|depth| depth.is_finite());
     let (low, high) = boundaries
         .chain(seen)
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), depth| (low.min(depth), high.max(depth)));
     if low >= high {
-        return [plan.view.near, plan.view.far];
+        return [plan.view.near, plan.view.far].map(from_eye);
     }
     let more = 0.06 * (high - low);
-    [(low - more).max(plan.view.near), (high + more).min(plan.view.far)]
+    [(low - more).max(from_eye(plan.view.near)), (high + more).min(from_eye(plan.view.far))]
 }
 
 fn draw_axis(canvas: &mut Canvas, plot: &Plot) {
@@ -138,7 +141,7 @@ fn nice(step: f64) -> f64 {
 /// A dash a column, joined to the one before where both are of one surface.
 fn draw_surface(canvas: &mut Canvas, plot: &Plot, aovs: &Aovs, columns: usize, row: u32) {
     let first = row as usize * columns;
-    let depth = |column: usize| f64::from(aovs.depth[first + column]);
+    let depth = |column: usize| aovs.depth[first + column];
     for column in (0..columns).filter(|column| depth(*column).is_finite()) {
         let y = plot.y(depth(column));
         canvas.fill([plot.x(column), y - 1], [plot.zoom, 3], SURFACE);

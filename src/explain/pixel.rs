@@ -34,7 +34,8 @@ impl Display for PixelAccount<'_> {
         writeln!(f, "  {:>12}    {:>12}  lenses around the ray", "from depth", "to")?;
         for (start, end) in self.stretches() {
             let region = Region { set: start.set, stack: plan.stack_of(start.set) };
-            write!(f, "  {:12.5} .. {end:12.5}  {}", start.depth, lenses(plan, &region))?;
+            let [from, to] = [start.depth, end].map(|depth| plan.view.from_eye(depth));
+            write!(f, "  {from:12.5} .. {to:12.5}  {}", lenses(plan, &region))?;
             if region == Region::PLAIN { writeln!(f)? } else { writeln!(f, "; stack {}", self.stack_text(&region))? }
         }
         let reasons = Reasons::new(self.spec, plan);
@@ -84,7 +85,8 @@ impl PixelAccount<'_> {
         f: &mut Formatter<'_>,
     ) -> fmt::Result {
         const INDENT: &str = "                ";
-        let Fragment { instance, triangle, depth, region, .. } = *fragment;
+        let Fragment { instance, triangle, region, .. } = *fragment;
+        let depth = self.plan.view.from_eye(f64::from(fragment.depth));
         let surface = NamedSurface::new(self.scene, self.plan, instance, triangle, region);
         let (node, material) = (surface.node.name, surface.material.name);
         let what = match cap_maker(triangle) {
@@ -154,11 +156,12 @@ impl PixelAccount<'_> {
     }
 
     fn fragment_json<'a>(&'a self, fragment: &Fragment, reasons: &Reasons<'a>) -> FragmentJson<'a> {
-        let Fragment { instance, triangle, depth, region, .. } = *fragment;
+        let Fragment { instance, triangle, region, .. } = *fragment;
+        let depth = self.plan.view.from_eye(f64::from(fragment.depth));
         let (position, place) = places(self.plan, self.pixel, instance, depth);
         FragmentJson {
             surface: NamedSurface::new(self.scene, self.plan, instance, triangle, region),
-            depth,
+            depth: depth as f32,
             position,
             place,
             rule_line: region.rule(self.plan).map(|rule| self.plan.rules[rule].line),
@@ -239,8 +242,8 @@ impl Serialize for PixelAccount<'_> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let reasons = Reasons::new(self.spec, self.plan);
         let layer = |(start, end): (crate::lens::LayerStart, f64)| LayerJson {
-            depth: start.depth,
-            end,
+            depth: self.plan.view.from_eye(start.depth),
+            end: self.plan.view.from_eye(end),
             lenses: self.plan.names(start.set),
             stack: crate::output::stack(self.plan, Region { set: start.set, stack: self.plan.stack_of(start.set) }),
         };

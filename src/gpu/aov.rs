@@ -41,7 +41,7 @@ pub fn store(
             let is_cap = cap_maker(pixel[3]).is_some();
             maps.triangles[at] = if is_cap { pixel[3] } else { pixel[3] - item.first_triangle };
             maps.nodes[at] = item.node as u32 + 1;
-            maps.depth[at] = f32::from_bits(pixel[4]);
+            maps.depth[at] = plan.view.from_eye(f64::from(f32::from_bits(pixel[4])));
             maps.normals[at] = [pixel[5], pixel[6], pixel[7]].map(f32::from_bits);
             let (set, stack) = pixel[FIXED_WORDS as usize..].split_at(words as usize);
             let [set, stack] = [set, stack].map(LensSet::from_words);

@@ -80,6 +80,9 @@ fn find_cells(corners: &[DVec2], is_mesh: bool, size: u32, rect: &PixelRect, mut
 pub struct ProjectedMesh {
     /// The point that the functions start from.
     pub origin: [f32; 2],
+    /// Of a perspective camera: the depth from the eye behind which, as a share of it, a depth from the eye is linear over
+    /// the picture. 0: inverse depths are taken, where a part has near and far places.
+    pub reference: f32,
     /// Four a triangle: the three sides (coefficients of x, of y, and the value at the origin; positive on their left)
     /// with, last, the point from which the depth is counted (x, y) and the least depth; and the depth or, for a
     /// perspective camera, its inverse (the same coefficients) with the largest depth.
@@ -105,7 +108,7 @@ impl Cells {
         if has_planes(mesh) {
             return Some(cells);
         }
-        let projected = ProjectedMesh::new(&faces, &mesh.tree.triangles, view.is_perspective(), window);
+        let projected = ProjectedMesh::new(&faces, &mesh.tree.triangles, view, window);
         Some(Self { projected: Some(projected), ..cells })
     }
 
@@ -149,7 +152,8 @@ impl Cells {
 }
 
 impl ProjectedMesh {
-    fn new(faces: &Projected, triangles: &[[u32; 3]], perspective: bool, window: &Window) -> Self {
+    fn new(faces: &Projected, triangles: &[[u32; 3]], view: &View, window: &Window) -> Self {
+        let reference = if view.is_perspective() { faces.reference(view) } else { 0.0 };
         // In the middle of what is seen: numbers stay small where pixels are, however far off corners lie.
         let size = DVec2::from_array(window.size.map(f64::from));
         let [low, high] = bounds(&faces.points).map(|p| p.clamp(DVec2::ZERO, size));
@@ -158,7 +162,12 @@ impl ProjectedMesh {
             let points = corners.map(|i| faces.points[i as usize] - origin);
             let depths = corners.map(|i| faces.depths[i as usize]);
             let [b, c] = [points[1] - points[0], points[2] - points[0]];
-            let counted = depths.map(|depth| if perspective { 1.0 / depth } else { depth });
+            let counted = depths.map(|depth| match view.is_perspective() {
+                // (t - reference) / t, without a difference of large numbers.
+                true if reference > 0.0 => (depth - (reference - view.anchor.depth)) / view.from_eye(depth),
+                true => 1.0 / view.from_eye(depth),
+                false => depth,
+            });
             let [rise_b, rise_c] = [counted[1] - counted[0], counted[2] - counted[0]];
             // Seen edge on it has any slope: the depth stays between its corners' anyway.
             let area = b.perp_dot(c);
@@ -176,7 +185,11 @@ impl ProjectedMesh {
             ]
         });
         let place = origin + DVec2::from_array(window.min.map(f64::from));
-        Self { origin: place.as_vec2().to_array(), vectors: vectors.collect::<Vec<_>>().into_flattened() }
+        Self {
+            origin: place.as_vec2().to_array(),
+            reference: reference as f32,
+            vectors: vectors.collect::<Vec<_>>().into_flattened(),
+        }
     }
 }
 
@@ -255,6 +268,14 @@ impl Projected {
         self.numbers.len()
     }
 
+    /// See [`ProjectedMesh::reference`].
+    fn reference(&self, view: &View) -> f64 {
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = self.depths.iter().fold(ends, |(low, high), depth| (low.min(*depth), high.max(*depth)));
+        let middle = view.from_eye(0.5 * (low + high));
+        if high - low < 0.5 * middle { middle } else { 0.0 }
+    }
+
     /// Replaces `out` with the corners of a face.
     fn corners(&self, face: usize, out: &mut Vec<DVec2>) {
         let own = self.starts[face] as usize..self.starts[face + 1] as usize;
@@ -294,6 +315,7 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::view::{Anchor, Projection};
 
     const SQUARE: (DVec2, f64) = (DVec2::new(8.0, 8.0), 8.0);
 
@@ -334,6 +356,20 @@ mod tests {
         assert_eq!(lists[3], [&[9][..], &[], &[], &[]]);
     }
 
+    fn some_view() -> View {
+        View {
+            eye: DVec3::ZERO,
+            right: DVec3::X,
+            up: DVec3::Y,
+            forward: DVec3::NEG_Z,
+            projection: Projection::Perspective { tan_half_y: 0.5 },
+            anchor: Anchor::default(),
+            near: 0.1,
+            far: 10.0,
+            size: [64, 64],
+        }
+    }
+
     #[test]
     fn triangles_are_functions_of_the_point() {
         let points = [[10.0, 10.0], [30.0, 12.0], [14.0, 40.0], [35.0, 35.0]].map(DVec2::from_array);
@@ -348,7 +384,7 @@ mod tests {
             is_mesh: true,
         };
         let window = Window { min: [100, 200], size: [64, 64] };
-        let mesh = ProjectedMesh::new(&faces, &triangles, true, &window);
+        let mesh = ProjectedMesh::new(&faces, &triangles, &some_view(), &window);
         let value = |v: &[f32; 4], p: DVec2| f64::from(v[0]) * p.x + f64::from(v[1]) * p.y + f64::from(v[2]);
         for (vectors, corners) in mesh.vectors.chunks_exact(4).zip(triangles) {
             for (i, corner) in corners.map(|corner| corner as usize).into_iter().enumerate() {

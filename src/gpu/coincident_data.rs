@@ -19,9 +19,9 @@ fn push(plan: &Plan, instance: &Instance, words: &mut Vec<u32>) -> u32 {
     let world_from_shown = instance.shown_from_world.inverse();
     for shared in shared {
         let plane = &plan.coincident.planes[shared.plane as usize];
-        // Around the eye, as shown.
+        // Around the view's origin, as shown.
         let normal = world_from_shown.matrix3.transpose() * plane.normal;
-        let offset = plane.offset - plane.normal.dot(world_from_shown.transform_point3(plan.view.eye));
+        let offset = plane.offset - plane.normal.dot(world_from_shown.transform_point3(plan.view.origin()));
         words.extend([shared.triangle, shared.rank]);
         words.extend(normal.as_vec3().to_array().map(f32::to_bits));
         words.push((offset as f32).to_bits());

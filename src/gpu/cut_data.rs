@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::DAffine3;
+use glam::{DAffine3, Vec3};
 
 use super::Window;
 use super::draws::{Culling, Draw};
@@ -49,7 +49,9 @@ pub fn push_cuts(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: &mut V
         for Member { instance, group } in members {
             let item = &plan.items[plan.instances[*instance].item];
             let place = (item.model, item.mesh, item.primitive, item.ratio.to_bits());
-            let [roles, lids] = *known.entry(place).or_insert_with(|| push_roles(scene, item, words));
+            let [roles, lids] = *known
+                .entry(place)
+                .or_insert_with(|| push_roles(scene, item, uploaded.primitive(item).0.middle, words));
             let group = members[*group].instance as u32;
             cuts[*instance] = CutWords { body, caps: push_caps(item, words), group, roles, lids };
         }
@@ -58,12 +60,12 @@ pub fn push_cuts(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: &mut V
 }
 
 /// Appends the surface on which caps find their nearest points: the rows of the map into its cube from the space around
-/// the eye, the number of its nodes, these, and of each triangle its corners, its instance and its place among the drawn.
+/// the view's origin, the number of its nodes, these, and of each triangle its corners, its instance and its place among the drawn.
 fn push_own(scene: &Scene, plan: &Plan, body: &Body, uploaded: &SceneData, words: &mut Vec<u32>) -> u32 {
     let Some(own) = OwnSurface::new(scene, plan, body) else { return NONE };
     let at = words.len() as u32;
-    let from_eye = own.cube_from_world * DAffine3::from_translation(plan.view.eye);
-    words.extend(rows(&from_eye).as_flattened().iter().map(|x| x.to_bits()));
+    let from_origin = own.cube_from_world * DAffine3::from_translation(plan.view.origin());
+    words.extend(rows(&from_origin).as_flattened().iter().map(|x| x.to_bits()));
     words.push(own.tree.nodes.len() as u32);
     words.extend_from_slice(bytemuck::cast_slice(&own.tree.nodes));
     let item = |member: &Member| &plan.items[plan.instances[member.instance].item];
@@ -77,8 +79,8 @@ fn push_own(scene: &Scene, plan: &Plan, body: &Body, uploaded: &SceneData, words
     at
 }
 
-/// Appends what an item's triangles and lids enclose; where.
-fn push_roles(scene: &Scene, item: &Item, words: &mut Vec<u32>) -> [u32; 2] {
+/// Appends what an item's triangles and lids enclose; where. `middle`: what its positions are relative to.
+fn push_roles(scene: &Scene, item: &Item, middle: Vec3, words: &mut Vec<u32>) -> [u32; 2] {
     let closure = scene.models[item.model].closure(item.mesh, item.ratio);
     let Enclosing { roles, lids, .. } = &closure.primitives[item.primitive];
     let mut at = [NONE; 2];
@@ -90,7 +92,7 @@ fn push_roles(scene: &Scene, item: &Item, words: &mut Vec<u32>) -> [u32; 2] {
     if !lids.is_empty() {
         at[1] = words.len() as u32;
         for (corners, role) in lids {
-            words.extend(corners.iter().flat_map(|p| p.to_array()).map(f32::to_bits));
+            words.extend(corners.iter().flat_map(|p| (*p - middle).to_array()).map(f32::to_bits));
             words.push(u32::from(role.bits()));
         }
     }

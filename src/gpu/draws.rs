@@ -61,7 +61,16 @@ enum Fate {
 }
 
 /// The draws of what a window may show, in the order that decides ties.
-pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, skip: Skip) -> Vec<Draw> {
+///
+/// `large`: whether each instance has very large triangles, whose depths each fragment finds.
+pub fn draws(
+    scene: &Scene,
+    plan: &Plan,
+    window: &Window,
+    uploaded: &SceneData,
+    skip: Skip,
+    large: &[bool],
+) -> Vec<Draw> {
     let lenses = Lenses::new(plan);
     let mut order: Vec<usize> = (0..plan.instances.len()).collect();
     order.sort_by_key(|instance| plan.items[plan.instances[*instance].item].first_triangle);
@@ -92,7 +101,7 @@ pub fn draws(scene: &Scene, plan: &Plan, window: &Window, uploaded: &SceneData, 
                 base_vertex: range.base_vertex as i32,
                 culling: culling(scene, plan, item),
                 rect,
-                plain: fate == Fate::Plain && !in_planes,
+                plain: fate == Fate::Plain && !in_planes && !large[number],
                 in_planes,
             };
             match draws.last_mut() {
@@ -232,11 +241,14 @@ impl<'a> Lenses<'a> {
     }
 }
 
-/// How far boundaries that merge, and drawn depths, may be off around bounds: such a share of the depth, along the ray
-/// that is longest for its depth.
+/// How far boundaries that merge, and drawn depths, may be off around bounds: some times what merges, and a share of the
+/// depth, along the ray that is longest for its depth.
 fn margin(view: &View, bounds: &Aabb) -> f64 {
-    let depths = bounds.corners().map(|p| view.depth(p).abs());
-    4e-5 * view.ray(0.0, 0.0).direction.length() * depths.into_iter().fold(view.far.abs(), f64::max)
+    let off = |p: DVec3| {
+        let depth = view.depth(p);
+        (4.0 * view.anchor.merging.at(depth)).max(2e-5 * (depth.abs() + view.anchor.merging.across))
+    };
+    view.ray(0.0, 0.0).direction.length() * bounds.corners().map(off).into_iter().fold(0.0, f64::max)
 }
 
 fn padded(view: &View, bounds: &Aabb) -> Aabb {

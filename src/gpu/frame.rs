@@ -2,12 +2,10 @@
 
 use glam::DVec2;
 
-use super::part_data::AffineRay;
 use super::records::{FrameRecord, all_words, extended};
 use super::tiles::Tiles;
 use super::{Engine, Window};
 use crate::plan::{LensSet, Plan};
-use crate::view::{Projection, View};
 
 /// One pass of the whole pipeline over a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,32 +72,26 @@ pub struct FrameShape<'a> {
     pub after: Option<Place>,
 }
 
-/// Half the picture's height: at depth 1 for a perspective camera.
-fn half_height(view: &View) -> f64 {
-    match view.projection {
-        Projection::Perspective { tan_half_y } => tan_half_y,
-        Projection::Orthographic { half_height } => half_height,
-    }
-}
-
 impl FrameShape<'_> {
     /// The record of one sample and layer.
     pub fn record(&self, sample: &Sample, layer: u32) -> FrameRecord {
         let plan = self.plan;
         let view = &plan.view;
-        let ray = AffineRay::new(view);
+        let (dx, dy) = view.pixel_steps();
+        let merging = view.anchor.merging;
+        let drawn = view.anchor.drawn;
         let (clip_scale, clip_shift) = self.clip(sample.at);
         let space = plan.texture_space;
         FrameRecord {
-            ray_fixed: extended(ray.fixed),
-            ray_base: extended(ray.base),
-            ray_dx: extended(ray.dx),
-            ray_dy: extended(ray.dy),
+            ray_dx: extended(dx),
+            ray_dy: extended(dy),
             right: extended(view.right),
             up: extended(view.up),
             forward: extended(view.forward),
             clip_scale: clip_scale.as_vec2().to_array(),
             clip_shift: clip_shift.as_vec2().to_array(),
+            middle: view.size.map(|length| 0.5 * length as f32),
+            shares: view.shares().map(|share| share as f32),
             near: view.near as f32,
             far: view.far as f32,
             perspective: u32::from(view.is_perspective()),
@@ -110,7 +102,7 @@ impl FrameShape<'_> {
             sample_index: sample.index,
             samples: plan.samples,
             ambient: plan.lighting.up.extend(plan.lighting.ambient).to_array(),
-            texture_space: (space.origin.as_dvec3() - view.eye).as_vec3().extend(space.scale).to_array(),
+            texture_space: (space.origin - view.origin()).as_vec3().extend(space.scale).to_array(),
             background: plan.background,
             fragment_capacity: self.fragment_capacity,
             active_tiles: self.tiles.active,
@@ -121,9 +113,14 @@ impl FrameShape<'_> {
             after_key: self.after.map_or(u32::MAX, |place| place.key),
             after_item: self.after.map_or(0, |place| place.item),
             tone_mapping: plan.tone_mapping,
-            pad: [0; 3],
-            eye: view.eye.as_vec3().to_array(),
-            picture_scale: (1.0 / half_height(view)) as f32,
+            drawn: drawn.map(|depth| depth as f32),
+            drawn_from_eye: view.from_eye(drawn[0]) as f32,
+            origin: view.origin().as_vec3().to_array(),
+            anchor: view.anchor.depth as f32,
+            merge_most: merging.most.min(1e37) as f32,
+            merge_across: merging.across as f32,
+            pad: 0.0,
+            picture_scale: (1.0 / view.half_height()) as f32,
             by_pixel: all_words(&plan.by_pixel),
             translucent: all_words(&plan.translucent()),
             passed: all_words(&self.after.map_or(LensSet::EMPTY, |place| place.passed)),
@@ -136,7 +133,7 @@ impl FrameShape<'_> {
         let view = &self.plan.view;
         let double = |v: [u32; 2]| DVec2::new(f64::from(v[0]), f64::from(v[1]));
         let (whole, window, min) = (double(view.size), double(self.window.size), double(self.window.min));
-        let picture = DVec2::new(whole.y / whole.x, 1.0) / half_height(view);
+        let picture = DVec2::new(whole.y / whole.x, 1.0) / view.half_height();
         let shift = (whole + 1.0 - 2.0 * sample - 2.0 * min) / window - 1.0;
         (picture * whole / window, DVec2::new(shift.x, -shift.y))
     }

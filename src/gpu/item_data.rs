@@ -23,24 +23,25 @@ pub fn item_stride(words: u32, channels: u32) -> u64 {
 }
 
 impl ItemData {
-    /// `words`: of a set of lenses; `cuts`, `in_planes`: of each instance.
+    /// `words`: of a set of lenses; `cuts`, `planes` and `in_planes`: of each instance.
     pub fn new(
         scene: &Scene,
         plan: &Plan,
         uploaded: &SceneData,
         words: u32,
         cuts: &[CutWords],
+        planes: &[u32],
         in_planes: &[u32],
     ) -> Self {
         let mut data = Self::default();
-        for ((instance, cut), in_plane) in plan.instances.iter().zip(cuts).zip(in_planes) {
+        for (((instance, cut), planes), in_plane) in plan.instances.iter().zip(cuts).zip(planes).zip(in_planes) {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
             let CutWords { body, caps, group, roles, lids } = *cut;
-            let in_plane = *in_plane;
-            let own = record(scene, plan, instance, uploaded);
-            let cut = ItemRecord { first_step, body, caps, group, roles, lids, in_plane, ..own };
+            let (planes, in_plane) = (*planes, *in_plane);
+            let plain = record(scene, plan, instance, uploaded);
+            let cut = ItemRecord { first_step, body, caps, group, roles, lids, planes, in_plane, ..plain };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&cut));
             let masks = [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
@@ -59,8 +60,8 @@ impl ItemData {
 }
 
 fn step_record(plan: &Plan, step: &Step) -> StepRecord {
-    let eye = DAffine3::from_translation(plan.view.eye);
-    let [row_x, row_y, row_z] = rows(&(eye.inverse() * step.source_from_shown * eye));
+    let origin = DAffine3::from_translation(plan.view.origin());
+    let [row_x, row_y, row_z] = rows(&(origin.inverse() * step.source_from_shown * origin));
     StepRecord { row_x, row_y, row_z, rank: step.rank as u32, pad: [0; 3] }
 }
 
@@ -68,7 +69,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
     let item = &plan.items[instance.item];
     let (range, _) = uploaded.primitive(item);
     let mut around = shown_from_local(scene, item, instance);
-    around.translation -= plan.view.eye;
+    around.translation += around.matrix3 * range.middle.as_dvec3() - plan.view.origin();
     let [row_x, row_y, row_z] = rows(&around);
     ItemRecord {
         row_x,
@@ -87,7 +88,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         uv0: range.uv[0],
         uv1: range.uv[1],
         slots: texture_slots(&scene.materials[item.material]),
-        center: (item.center - plan.view.eye).as_vec3().to_array(),
+        center: (item.center - plan.view.origin()).as_vec3().to_array(),
         first_step: 0,
         step_count: instance.steps.len() as u32,
         body: NONE,
@@ -95,6 +96,7 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         node: item.node as u32,
         ratio: item.ratio,
         spread: instance.spread as f32,
+        planes: NONE,
         group: NONE,
         roles: NONE,
         lids: NONE,

@@ -25,6 +25,7 @@ mod needs;
 mod part_data;
 mod pipelines;
 mod plan_group;
+mod planes;
 mod program;
 mod provoking;
 mod readback;

@@ -58,6 +58,8 @@ pub struct Needs {
     pub quantities: bool,
     /// Some filter has wires that nearer surfaces hide.
     pub hidden_lines: bool,
+    /// Some triangle is very large for how near it is.
+    pub large: bool,
     /// How many numbers at vertices filters read.
     pub channels: u32,
     /// Some filter works on the finished picture.
@@ -67,7 +69,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    pub fn of(scene: &Scene, plan: &Plan, engine: Engine) -> Self {
+    pub fn of(scene: &Scene, plan: &Plan, engine: Engine, large: &[bool]) -> Self {
         let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
         let parts = plan.lenses.iter().map(|lens| lens.volume.parts.len());
         let names = plan.rules.iter().map(|rule| condition(&rule.when).0.len());
@@ -102,6 +104,7 @@ impl Needs {
             filters: plan.ops.iter().fold(0, |all, op| all | filter_bits(op)),
             quantities: plan.ops.iter().any(Op::reads_quantity),
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
+            large: large.contains(&true),
             channels: plan.channels.len() as u32,
             screen: !plan.screen.is_empty(),
             in_planes: !plan.coincident.is_empty(),
@@ -224,6 +227,7 @@ impl Needs {
             ("COVERAGE_FILTERS", self.stages[2]),
             ("QUANTITIES", self.quantities),
             ("HIDDEN_LINES", self.hidden_lines),
+            ("LARGE", self.large),
             ("SCREEN", self.screen),
             ("IN_PLANES", self.in_planes),
         ];

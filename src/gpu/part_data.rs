@@ -20,72 +20,72 @@ pub struct PartData {
     pub words: Vec<u32>,
 }
 
-/// What a ray is, relative to the eye, at a point (x, y) of the picture: `fixed` and `base + x dx + y dy`.
+/// The pixels' rays in some space: that of the picture's middle, and steps across the picture by a pixel, of which parts
+/// ([`View::shares`]) count for origins and for directions.
 #[derive(Debug, Clone, Copy)]
-pub struct AffineRay {
-    /// The origin of a perspective camera's rays, the direction of an orthographic one's.
-    pub fixed: DVec3,
-    pub base: DVec3,
-    pub dx: DVec3,
-    pub dy: DVec3,
+struct AffineRay {
+    origin: DVec3,
+    direction: DVec3,
+    dx: DVec3,
+    dy: DVec3,
 }
 
 impl AffineRay {
-    pub fn new(view: &View) -> Self {
-        let corner = view.ray(0.0, 0.0);
+    /// `local`: the map from the space around the view's origin.
+    fn new(view: &View, local: &DAffine3) -> Self {
         let (dx, dy) = view.pixel_steps();
-        let origin = corner.origin - view.eye;
-        if view.is_perspective() {
-            Self { fixed: origin, base: corner.direction, dx, dy }
-        } else {
-            Self { fixed: corner.direction, base: origin, dx, dy }
+        Self {
+            origin: local.translation,
+            direction: local.transform_vector3(view.forward),
+            dx: local.transform_vector3(dx),
+            dy: local.transform_vector3(dy),
         }
     }
 
-    /// The same in another space, of which `local` is the map from the space around the eye.
-    fn in_space(&self, local: &DAffine3, perspective: bool) -> Self {
-        let point = |p| local.transform_point3(p);
-        let vector = |v| local.transform_vector3(v);
-        let (fixed, base) =
-            if perspective { (point(self.fixed), vector(self.base)) } else { (vector(self.fixed), point(self.base)) };
-        Self { fixed, base, dx: vector(self.dx), dy: vector(self.dy) }
+    /// The coefficients of a plane: the middle ray's distance and rate, and what a pixel's steps add.
+    fn plane(&self, plane: &Plane) -> [f32; 4] {
+        let n = plane.normal;
+        [plane.distance(self.origin), n.dot(self.direction), n.dot(self.dx), n.dot(self.dy)].map(|c| c as f32)
     }
 
-    /// The coefficients of a plane: its distance along the origins and its rate along the directions, one of them
-    /// fixed (first), the other a function of the pixel.
-    fn plane(&self, plane: &Plane, perspective: bool) -> [f32; 4] {
-        let n = plane.normal;
-        let (fixed, base) = if perspective {
-            (plane.distance(self.fixed), n.dot(self.base))
-        } else {
-            (n.dot(self.fixed), plane.distance(self.base))
-        };
-        [fixed, base, n.dot(self.dx), n.dot(self.dy)].map(|c| c as f32)
+    /// How far outside the surfaces of a form its origin is, as squares: of a ball, of the side of a cone or a capsule, and
+    /// of the ball at a capsule's other end.
+    fn outside(&self, form: &Form) -> [f64; 3] {
+        let o = self.origin;
+        let ball = |p: DVec3| p.length_squared() - 1.0;
+        let side = |radius: f64| o.truncate().length_squared() - radius * radius;
+        match form {
+            Form::Sphere => [ball(o), 0.0, 0.0],
+            Form::Cone { r0, r1 } => [0.0, side(r0 + (r1 - r0) * o.z), 0.0],
+            Form::Capsule { length } => [ball(o), side(1.0), ball(o - DVec3::Z * *length)],
+            Form::HalfSpaces { .. } | Form::Mesh(_) | Form::Empty => [0.0; 3],
+        }
     }
 }
 
 /// A part's own space.
 struct PartFrame {
-    local_from_eye: DAffine3,
+    /// From the space around the view's origin.
+    local: DAffine3,
     /// The pixels' rays in it.
     ray: AffineRay,
     /// From gradients in it to those in the world.
     to_world: DMat3,
-    perspective: bool,
 }
 
 impl PartData {
     /// Appends a part of the lens of the given rank. `whole`: a mesh is asked for more than where pixels' rays cross it.
     pub fn add(&mut self, view: &View, rank: u32, solid: &Solid, cells: Option<&Cells>, whole: bool, crossings: u32) {
-        let perspective = view.is_perspective();
-        let local_from_eye = solid.local_from_world * DAffine3::from_translation(view.eye);
-        let ray = AffineRay::new(view).in_space(&local_from_eye, perspective);
+        let local = solid.local_from_world * DAffine3::from_translation(view.origin());
+        let ray = AffineRay::new(view, &local);
+        let outside = ray.outside(&solid.form);
+        let with = |v: DVec3, w: f64| v.extend(w).as_vec4().to_array();
         let normals = solid.local_from_world.matrix3.transpose();
-        let [local_x, local_y, local_z] = rows(&local_from_eye);
+        let [local_x, local_y, local_z] = rows(&local);
         let mut record = PartRecord {
-            ray_fixed: extended(ray.fixed),
-            ray_base: extended(ray.base),
-            ray_dx: extended(ray.dx),
+            ray_origin: with(ray.origin, outside[0]),
+            ray_direction: with(ray.direction, outside[1]),
+            ray_dx: with(ray.dx, outside[2]),
             ray_dy: extended(ray.dy),
             normal_x: extended(normals.x_axis),
             normal_y: extended(normals.y_axis),
@@ -100,9 +100,9 @@ impl PartData {
             record.flags |= records::PART_FLAT;
             record.first_corner = self.vectors.len() as u32;
             record.corner_count = solid.hull.len() as u32;
-            self.vectors.extend(solid.hull.iter().map(|p| extended(*p - view.eye)));
+            self.vectors.extend(solid.hull.iter().map(|p| extended(*p - view.origin())));
         }
-        let frame = PartFrame { local_from_eye, ray, to_world: normals, perspective };
+        let frame = PartFrame { local, ray, to_world: normals };
         self.set_form(&mut record, solid, &frame);
         match &solid.form {
             Form::Mesh(mesh) if has_planes(mesh) => {
@@ -120,7 +120,7 @@ impl PartData {
                 }
                 if let Some(projected) = projected {
                     record.first_projected = self.vectors.len() as u32;
-                    record.origin = projected.origin;
+                    (record.origin, record.reference) = (projected.origin, projected.reference);
                     self.vectors.extend_from_slice(&projected.vectors);
                 }
             }
@@ -159,9 +159,9 @@ impl PartData {
                 self.vectors.extend([[0.0; 4], [0.0, 0.0, 0.0, 1e37]]);
                 continue;
             };
-            self.vectors.push(frame.ray.plane(&plane, frame.perspective));
+            self.vectors.push(frame.ray.plane(&plane));
             let gradient = frame.to_world * plane.normal;
-            let offset = (plane.offset - plane.normal.dot(frame.local_from_eye.translation)) / gradient.length();
+            let offset = (plane.offset - plane.normal.dot(frame.local.translation)) / gradient.length();
             self.vectors.push(gradient.normalize_or_zero().extend(offset).as_vec4().to_array());
         }
     }

@@ -5,7 +5,7 @@ use super::lens_data::LensData;
 use super::records::FrameRecord;
 use super::upload::check_size;
 use super::{Error, alloc, bindings};
-use crate::plan::{LightRecord, Plan};
+use crate::plan::Plan;
 
 /// What goes into the buffers besides the plan itself.
 pub struct PlanContents<'a> {
@@ -33,7 +33,6 @@ impl PlanContents<'_> {
         allowed: u64,
     ) -> Result<PlanGroup, Error> {
         let Self { plan, items, lenses, .. } = self;
-        let lights: Vec<LightRecord> = plan.lighting.lights.iter().map(|light| light.around(plan.view.eye)).collect();
         let buffer = |label, bytes| plan_buffer(device, allowed, label, bytes, wgpu::BufferUsages::STORAGE);
         let frames = plan_buffer(device, allowed, "the window's frames", self.frames, wgpu::BufferUsages::STORAGE)?;
         let as_attribute = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX;
@@ -45,7 +44,7 @@ impl PlanContents<'_> {
             buffer("the plan's planes and corners of lenses", bytemuck::cast_slice(&lenses.parts.vectors))?,
             buffer("the plan's programs and meshes of lenses", bytemuck::cast_slice(&lenses.parts.words))?,
             buffer("the plan's filters", bytemuck::cast_slice(&plan.ops))?,
-            buffer("the plan's lights", bytemuck::cast_slice(&lights))?,
+            buffer("the plan's lights", bytemuck::cast_slice(&plan.lighting.lights))?,
             buffer("the window's tiles", bytemuck::cast_slice(self.tiles))?,
             buffer("the plan's parameters of filters", bytemuck::cast_slice(&plan.custom_words))?,
         ];

@@ -28,10 +28,7 @@ pub const PART_PARITY: u32 = 2;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct FrameRecord {
-    /// A ray is `ray_fixed` and `ray_base + x ray_dx + y ray_dy` at a point of the whole picture, in pixels: origin and
-    /// direction of a perspective camera, direction and origin of an orthographic one; relative to the eye.
-    pub ray_fixed: [f32; 4],
-    pub ray_base: [f32; 4],
+    /// A step across the picture by one pixel, right and down.
     pub ray_dx: [f32; 4],
     pub ray_dy: [f32; 4],
     pub right: [f32; 4],
@@ -39,6 +36,10 @@ pub struct FrameRecord {
     pub forward: [f32; 4],
     pub clip_scale: [f32; 2],
     pub clip_shift: [f32; 2],
+    /// In pixels from the picture's top left corner.
+    pub middle: [f32; 2],
+    /// Of a step across the picture: of a ray's origin, and of its direction.
+    pub shares: [f32; 2],
     pub near: f32,
     pub far: f32,
     pub perspective: u32,
@@ -64,9 +65,17 @@ pub struct FrameRecord {
     pub after_item: u32,
     /// `TONE_...` of the shaders.
     pub tone_mapping: u32,
-    pub pad: [u32; 3],
-    /// World space.
-    pub eye: [f32; 3],
+    /// Depths between which drawn depths resolve.
+    pub drawn: [f32; 2],
+    /// The former, from the eye.
+    pub drawn_from_eye: f32,
+    /// Of the view: world space.
+    pub origin: [f32; 3],
+    /// How far the eye is before the anchor.
+    pub anchor: f32,
+    pub merge_most: f32,
+    pub merge_across: f32,
+    pub pad: f32,
     /// Two over the picture's height, at depth 1 for a perspective camera.
     pub picture_scale: f32,
     pub by_pixel: [u32; 12],
@@ -79,7 +88,7 @@ pub struct FrameRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ItemRecord {
-    /// Rows of the map from local space to where it is shown around the eye.
+    /// Rows of the map from local space to where it is shown around the view's origin.
     pub row_x: [f32; 4],
     pub row_y: [f32; 4],
     pub row_z: [f32; 4],
@@ -99,7 +108,7 @@ pub struct ItemRecord {
     pub uv1: u32,
     /// Bit i: its material has a texture in its i-th slot.
     pub slots: u32,
-    /// The centre of its node where it is in place, around the eye.
+    /// The centre of its node where it is in place, around the view's origin.
     pub center: [f32; 3],
     pub first_step: u32,
     pub step_count: u32,
@@ -112,6 +121,8 @@ pub struct ItemRecord {
     pub ratio: f32,
     /// How far versions of it may lie from each other.
     pub spread: f32,
+    /// Among the vectors of lenses, or `u32::MAX`: the planes of its triangles.
+    pub planes: u32,
     /// See [`super::cut_data::CutWords`].
     pub group: u32,
     pub roles: u32,
@@ -126,7 +137,7 @@ pub struct ItemRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct StepRecord {
-    /// Rows of the map, around the eye, from the shown point to where the lenses below are asked.
+    /// Rows of the map, around the view's origin, from the shown point to where the lenses below are asked.
     pub row_x: [f32; 4],
     pub row_y: [f32; 4],
     pub row_z: [f32; 4],
@@ -157,16 +168,17 @@ pub struct LensRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct PartRecord {
-    /// The pixel's ray in the part's own space.
-    pub ray_fixed: [f32; 4],
-    pub ray_base: [f32; 4],
+    /// In the part's own space the ray of the picture's middle, with last what its origin is outside the surfaces, and a
+    /// pixel's steps.
+    pub ray_origin: [f32; 4],
+    pub ray_direction: [f32; 4],
     pub ray_dx: [f32; 4],
     pub ray_dy: [f32; 4],
     /// Columns of the map from normals in the part's own space.
     pub normal_x: [f32; 4],
     pub normal_y: [f32; 4],
     pub normal_z: [f32; 4],
-    /// Rows of the map from the space around the eye.
+    /// Rows of the map from the space around the view's origin.
     pub local_x: [f32; 4],
     pub local_y: [f32; 4],
     pub local_z: [f32; 4],
@@ -189,10 +201,10 @@ pub struct PartRecord {
     pub first_vertex: u32,
     /// For how many of its crossings a pixel has room.
     pub crossing_room: u32,
-    /// Of a mesh in front of the eye: its triangles in the picture, among the vectors, and the point of the picture that
-    /// they start from.
+    /// Of a mesh in front of the eye: its triangles in the picture, among the vectors, the point of the picture that they
+    /// start from, and the depth from the eye, or 0, by which their depths are counted.
     pub first_projected: u32,
-    pub pad: u32,
+    pub reference: f32,
     pub origin: [f32; 2],
 }
 

@@ -12,6 +12,7 @@ use super::job::{CapSteps, ComputeSteps, ExplainPass, Groups, Job, ResolvePipeli
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::plan_group::{PlanContents, PlanGroup};
+use super::planes;
 use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::screen_job::ScreenJob;
@@ -186,7 +187,8 @@ impl Renderer {
         if plan.scene != scene.id {
             return Err(Error::OtherScene { what: "the one that is drawn" });
         }
-        let needs = Needs::of(scene, plan, options.engine);
+        let large = planes::large(scene, plan);
+        let needs = Needs::of(scene, plan, options.engine, &large);
         // Maps count layers, whether the picture asks for them or not.
         let cuts_layers = needs.layers || options.aovs;
         let words = needs.set_words;
@@ -221,10 +223,11 @@ impl Renderer {
         let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
         let cuts = cut_data::push_cuts(scene, plan, &self.scene, &mut lenses.parts.words);
         let in_planes = coincident_data::push_in_planes(plan, &mut lenses.parts.words);
+        let planes = planes::push(scene, plan, &large, &mut lenses.parts.vectors);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
-            items: &ItemData::new(scene, plan, &self.scene, words, &cuts, &in_planes),
+            items: &ItemData::new(scene, plan, &self.scene, words, &cuts, &planes, &in_planes),
             lenses: &lenses,
             tiles: &tiles.words,
         }
@@ -243,7 +246,7 @@ impl Renderer {
         let ((draws, caps, layers), (aov, resolve)) = rayon::join(
             || {
                 let program = program_of(options.engine, after.is_some());
-                let draws = self.draws(scene, plan, &window, skip, program, &unshaded);
+                let draws = self.draws(scene, plan, &window, (skip, &large), program, &unshaded);
                 let caps = needs.caps.then(|| {
                     let lids = cut_data::lid_draws(scene, plan, &window);
                     CapSteps {
@@ -308,11 +311,11 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         window: &Window,
-        skip: Skip,
+        (skip, large): (Skip, &[bool]),
         program: impl Fn(&Draw) -> Program,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
-        draws::draws(scene, plan, window, &self.scene, skip)
+        draws::draws(scene, plan, window, &self.scene, skip, large)
             .into_iter()
             .map(|draw| {
                 let pipeline = pipelines.draw(&self.store, program(&draw), draw.culling);

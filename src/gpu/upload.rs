@@ -2,21 +2,25 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use glam::Vec3;
+
 use super::atlas::Atlas;
 use super::clusters::{Cluster, Clustered};
 use super::provoking::Provoking;
 use super::records::NONE;
 use super::{Error, alloc, bindings};
 use crate::plan::Item;
-use crate::scene::{Across, Edges, Mesh, Primitive, Scene, SceneId};
+use crate::scene::{Mesh, Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Range {
     pub first_index: u32,
     /// Where the numbers start that its triangles have in the primitive.
     pub first_number: u32,
     pub base_vertex: u32,
+    /// Its positions are relative to this: a mesh far from its own origin keeps its digits.
+    pub middle: Vec3,
     /// Floats, or [`NONE`].
     pub normals: u32,
     pub tangents: u32,
@@ -26,6 +30,14 @@ pub struct Range {
     pub across: u32,
     /// Of other numbers at vertices, by name.
     pub values: BTreeMap<String, u32>,
+}
+
+/// Of the bounds of points; none where they have no middle that is a number.
+fn middle(points: &[Vec3]) -> Vec3 {
+    let ends = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(ends, |(low, high), p| (low.min(*p), high.max(*p)));
+    let middle = 0.5 * low + 0.5 * high;
+    if middle.is_finite() { middle } else { Vec3::ZERO }
 }
 
 /// Model, mesh, primitive, and the bits of the ratio of its version.
@@ -58,55 +70,53 @@ struct Lists {
 }
 
 impl Lists {
-    /// Adds a mesh: the versions of its primitives, by their numbers and ratios. `wanted`: the names of the numbers at
-    /// vertices that filters read.
-    fn add_mesh(&mut self, mesh: &Mesh, wanted: &BTreeMap<String, [f32; 2]>) -> Vec<(usize, f32, Range, Vec<Cluster>)> {
-        // Of the vertices of all primitives, one after the other: where a copy of each stands.
-        let mut copies = Vec::new();
-        let mut added = Vec::new();
-        for (number, primitive) in mesh.primitives.iter().enumerate() {
-            for (version, (ratio, triangles)) in primitive.versions().enumerate() {
-                let whole = (version == 0).then_some(&mut copies);
-                let (range, clusters) = self.add(primitive, triangles, wanted, whole);
-                added.push((number, ratio, range, clusters));
-            }
-        }
-        for (number, ratio, range, _) in &mut added {
-            range.across = self.across(mesh.primitives[*number].across_of(*ratio), range.first_number, &copies);
-        }
-        added
-    }
-
-    /// What lies across the edges of triangles, in the order in which they are drawn.
-    fn across(&mut self, across: &[Edges], first_number: u32, copies: &[u32]) -> u32 {
+    /// What lies across the edges of a primitive's triangles, in the order in which they are drawn. `copies`: where a copy of
+    /// each of its vertices stands; those of other primitives are appended, around `middle` like its own.
+    fn across(&mut self, mesh: &Mesh, number: usize, ratio: f32, drawn: &[u32], copies: &[u32], middle: Vec3) -> u32 {
+        let across = mesh.primitives[number].across_of(ratio);
         if across.is_empty() {
             return NONE;
         }
-        let start = self.numbers.len();
-        let word = |across: &Across| {
-            let opposite = across.opposite().map_or(NO_VERTEX, |vertex| copies[vertex as usize].min(NO_VERTEX));
-            opposite | if across.is_feature() { FEATURE } else { 0 }
-        };
-        for drawn in first_number as usize..first_number as usize + across.len() {
-            let edges = &across[self.numbers[drawn] as usize];
-            self.numbers.extend(edges.across.each_ref().map(word));
+        let first: usize = mesh.primitives[..number].iter().map(|other| other.positions.len()).sum();
+        let start = self.numbers.len() as u32;
+        let mut others: HashMap<u32, u32> = HashMap::new();
+        for number in drawn {
+            let edges = &across[*number as usize];
+            for across in &edges.across {
+                let place = across.opposite().map(|vertex| {
+                    let own = (vertex as usize).checked_sub(first).and_then(|own| copies.get(own));
+                    own.copied().unwrap_or_else(|| {
+                        *others.entry(vertex).or_insert_with(|| {
+                            let p = mesh.vertex(vertex).unwrap_or_default() - middle;
+                            self.positions.extend(p.to_array());
+                            (self.positions.len() / 3 - 1) as u32
+                        })
+                    })
+                });
+                let feature = if across.is_feature() { FEATURE } else { 0 };
+                self.numbers.push(place.map_or(NO_VERTEX, |place| place.min(NO_VERTEX)) | feature);
+            }
             self.numbers.push(edges.beyond_word());
         }
-        start as u32
+        start
     }
 
-    /// `copies`: where to append the places of the primitive's vertices.
+    /// Adds a version of a mesh's primitive. `wanted`: the names of the numbers at vertices that filters read.
     fn add(
         &mut self,
-        primitive: &Primitive,
-        triangles: &[[u32; 3]],
+        mesh: &Mesh,
+        number: usize,
+        (ratio, triangles): (f32, &[[u32; 3]]),
         wanted: &BTreeMap<String, [f32; 2]>,
-        copies: Option<&mut Vec<u32>>,
     ) -> (Range, Vec<Cluster>) {
+        let primitive = &mesh.primitives[number];
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
-        let range = Range {
+        let middle = middle(&primitive.positions);
+        let around: Vec<Vec3> = primitive.positions.iter().map(|p| *p - middle).collect();
+        let mut range = Range {
+            middle,
             first_index: self.indices.len() as u32,
             first_number: self.numbers.len() as u32,
             base_vertex: (self.positions.len() / 3) as u32,
@@ -117,14 +127,12 @@ impl Lists {
             across: NONE,
             values: self.values(&order, primitive, wanted),
         };
-        if let Some(copies) = copies {
-            copies.extend(std::iter::repeat_n(NONE, primitive.positions.len()));
-            let own = copies.len() - primitive.positions.len();
-            (range.base_vertex..).zip(&order.sources).for_each(|(copy, source)| copies[own + *source as usize] = copy);
-        }
-        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&primitive.positions)));
+        self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&around)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
-        self.numbers.extend(numbers);
+        self.numbers.extend_from_slice(&numbers);
+        let mut copies = vec![NONE; primitive.positions.len()];
+        (range.base_vertex..).zip(&order.sources).for_each(|(copy, source)| copies[*source as usize] = copy);
+        range.across = self.across(mesh, number, ratio, &numbers, &copies, middle);
         (range, clusters)
     }
 
@@ -157,8 +165,11 @@ impl SceneData {
         let mut primitives = HashMap::new();
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
-                for (p, ratio, range, clusters) in lists.add_mesh(mesh, &scene.value_ranges) {
-                    primitives.insert((m, i, p, ratio.to_bits()), (range, clusters));
+                for (p, primitive) in mesh.primitives.iter().enumerate() {
+                    for version in primitive.versions() {
+                        let added = lists.add(mesh, p, version, &scene.value_ranges);
+                        primitives.insert((m, i, p, version.0.to_bits()), added);
+                    }
                 }
             }
         }

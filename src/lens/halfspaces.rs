@@ -21,6 +21,11 @@ impl Plane {
         Self { normal, offset: normal.dot(point) }
     }
 
+    /// The same plane as seen from a point.
+    fn about(&self, center: DVec3) -> Self {
+        Self { offset: -self.distance(center), ..*self }
+    }
+
     /// Signed distance; positive outside.
     pub fn distance(&self, p: DVec3) -> f64 {
         self.normal.dot(p) - self.offset
@@ -44,31 +49,65 @@ pub enum NotSolid {
 
 /// How much larger than the farthest plane the box is from which faces are cut; what still touches it is unbounded.
 const REACH: f64 = 1e5;
+/// What counts as on a plane, as a share of the farthest plane's distance.
+const TOLERANCE: f64 = 1e-10;
+/// A solid thinner than this share of that is looked at from its own middle.
+const THIN: f64 = 1e-3;
+/// How often, at the most.
+const ROUNDS: usize = 2;
 
 impl Polyhedron {
-    /// Cuts a huge box by one half-space after the other.
+    /// A solid that is thin or small for its distance from the origin is found twice: about where it is, and then from
+    /// there, with all its digits.
     pub fn from_planes(planes: &[Plane]) -> Result<Self, NotSolid> {
-        let size = planes.iter().map(|p| p.offset.abs()).fold(0.0, f64::max).max(1e-9);
-        let tolerance = size * 1e-10;
+        let mut center = DVec3::ZERO;
+        let mut found = Self::cut_box(planes);
+        let mut reach = farthest(planes);
+        for _ in 0..ROUNDS {
+            let bounds = crate::scene::Aabb::from_points(found.vertices());
+            if bounds.is_empty() || found.is_open() || bounds.size().min_element() > THIN * reach {
+                break;
+            }
+            center += bounds.center();
+            let around: Vec<Plane> = planes.iter().map(|plane| plane.about(center)).collect();
+            found = Self::cut_box(&around);
+            reach = farthest(&around);
+        }
+        if found.is_open() {
+            return Err(NotSolid::Unbounded);
+        }
+        let bounds = crate::scene::Aabb::from_points(found.vertices());
+        if found.faces.len() < 4 || bounds.size().min_element() <= reach * TOLERANCE * 10.0 {
+            return Err(NotSolid::Empty);
+        }
+        found.faces.iter_mut().flat_map(|(_, corners)| corners).for_each(|corner| *corner += center);
+        Ok(found)
+    }
+
+    fn is_open(&self) -> bool {
+        self.faces.iter().any(|(index, _)| *index == OPEN)
+    }
+
+    /// Cuts a huge box by one half-space after the other.
+    fn cut_box(planes: &[Plane]) -> Self {
+        let size = farthest(planes);
+        let tolerance = size * TOLERANCE;
         let mut faces = box_faces(size * REACH);
         for (index, plane) in planes.iter().enumerate() {
             cut(&mut faces, index, plane, tolerance);
         }
-        if faces.iter().any(|(index, _)| *index == OPEN) {
-            return Err(NotSolid::Unbounded);
-        }
-        let solid = Self { faces };
-        let bounds = crate::scene::Aabb::from_points(solid.vertices());
-        if solid.faces.len() < 4 || bounds.size().min_element() <= tolerance * 10.0 {
-            return Err(NotSolid::Empty);
-        }
-        Ok(solid)
+        Self { faces }
     }
 
     /// All corners, those shared by several faces several times.
     pub fn vertices(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.faces.iter().flat_map(|(_, corners)| corners.iter().copied())
     }
+}
+
+/// The distance of the farthest plane.
+fn farthest(planes: &[Plane]) -> f64 {
+    planes.iter().map(|plane| plane.offset.abs()).fold(1e-9, f64::max)
 }
 
 /// Marks a face of the box that the cutting starts from.
@@ -165,6 +204,22 @@ mod tests {
         let mut planes = cube();
         planes.push(Plane::new(DVec3::X, -2.0));
         assert_eq!(Polyhedron::from_planes(&planes), Err(NotSolid::Empty));
+    }
+
+    #[test]
+    fn a_solid_thin_for_its_distance_is_found() {
+        let planes = |x: f64| {
+            [(DVec3::X, x + 0.5), (DVec3::NEG_X, 0.5 - x), (DVec3::Y, 0.5), (DVec3::NEG_Y, 0.5)]
+                .into_iter()
+                .chain([(DVec3::Z, 0.0005), (DVec3::NEG_Z, 0.0004)])
+                .map(|(normal, offset)| Plane::new(normal, offset))
+                .collect::<Vec<_>>()
+        };
+        for x in [0.0, 1e3, 1e6, 1e8] {
+            let solid = Polyhedron::from_planes(&planes(x)).unwrap();
+            let size = crate::scene::Aabb::from_points(solid.vertices()).size();
+            assert!((size - DVec3::new(1.0, 1.0, 0.0009)).abs().max_element() < 1e-6, "{x}: {size}");
+        }
     }
 
     #[test]

@@ -1,15 +1,7 @@
 //! The layers of one view ray: the lenses' intervals cut it into stretches with a constant set of lenses.
 
 use super::{Interval, LensSet, Volume};
-use crate::view::Ray;
-
-/// Boundaries closer than this share of the depth are one (SEMANTICS 2.1).
-const MERGE: f64 = 1e-5;
-
-/// Whether a boundary is another one than the boundary at `first` before it.
-pub fn starts_boundary(first: f64, depth: f64) -> bool {
-    depth - first > MERGE * first.abs()
-}
+use crate::view::{Merging, Ray};
 
 /// A layer begins: from `depth` to the next start the lenses in `set` are around the ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +14,7 @@ pub struct LayerStart {
 #[derive(Debug, Clone, Default)]
 pub struct RayLayers {
     pub starts: Vec<LayerStart>,
+    merging: Merging,
     boundaries: Vec<(f64, usize)>,
     intervals: Vec<Interval>,
 }
@@ -30,6 +23,7 @@ impl RayLayers {
     /// Finds the layers of a ray among volumes, each with its lens's rank. Keeps its allocations from ray to ray.
     pub fn find<'a>(&mut self, volumes: impl Iterator<Item = (usize, &'a Volume)>, ray: &Ray, near: f64, far: f64) {
         self.starts.clear();
+        self.merging = ray.merging;
         self.boundaries.clear();
         let mut set = LensSet::EMPTY;
         for (rank, volume) in volumes {
@@ -50,7 +44,7 @@ impl RayLayers {
         self.boundaries.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut rest = self.boundaries.as_slice();
         while let Some(&(depth, _)) = rest.first() {
-            let merged = rest.iter().take_while(|b| !starts_boundary(depth, b.0)).count();
+            let merged = rest.iter().take_while(|b| !self.merging.starts_boundary(depth, b.0)).count();
             for (_, rank) in &rest[..merged] {
                 // A lens that enters and leaves at one boundary has no interval.
                 if set.contains(*rank) {
@@ -67,13 +61,13 @@ impl RayLayers {
     /// The lenses around a depth: membership is half-open, `entry <= depth < exit`. A boundary that is as close as two
     /// that merge is reached: whether a surface in a lens face is inside must not depend on rounding.
     pub fn set_at(&self, depth: f64) -> LensSet {
-        let reached = |start: &&LayerStart| !starts_boundary(depth, start.depth);
+        let reached = |start: &&LayerStart| !self.merging.starts_boundary(depth, start.depth);
         self.starts.iter().rev().find(reached).map_or(LensSet::EMPTY, |start| start.set)
     }
 
     /// The lenses around the ray just before a boundary, one at this depth or as close to it as two that merge.
     pub fn set_before(&self, boundary: f64) -> LensSet {
-        let before = |start: &&LayerStart| starts_boundary(start.depth, boundary);
+        let before = |start: &&LayerStart| self.merging.starts_boundary(start.depth, boundary);
         self.starts.iter().rev().find(before).or(self.starts.first()).map_or(LensSet::EMPTY, |start| start.set)
     }
 

@@ -25,5 +25,3 @@ pub use set::{LensSet, MAX_LENSES, MAX_RULES};
 pub use solid::Solid;
 pub use tree::{MAX_PARTS, Tree};
 pub use volume::{Boundary, Interval, Volume};
-
-pub(crate) use layers::starts_boundary;

@@ -85,7 +85,9 @@ impl Solid {
         }
         let projected: Option<Vec<DVec2>> = self.hull.iter().map(|p| view.project(*p)).collect();
         match projected {
-            Some(points) if nearest > 0.0 || !view.is_perspective() => PixelRect::around(points, view.size),
+            Some(points) if view.from_eye(nearest) > 0.0 || !view.is_perspective() => {
+                PixelRect::around(points, view.size)
+            }
             _ => PixelRect::whole(view.size),
         }
     }

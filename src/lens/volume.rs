@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::holding::Holding;
 use super::tree::Algebra;
-use super::{Crossing, PixelRect, Solid, Span, Tree, starts_boundary};
+use super::{Crossing, PixelRect, Solid, Span, Tree};
 use crate::scene::Aabb;
-use crate::view::{Ray, View};
+use crate::view::{Merging, Ray, View};
 
 /// The volume of one lens: its parts, and how they are put together.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,7 +127,7 @@ impl Volume {
             }
             crossings.sort_by(|a, b| a.depth.total_cmp(&b.depth));
             let starts_inside = holding.holds();
-            changes(crossings, holding, tell);
+            changes(crossings, holding, &ray.merging, tell);
             starts_inside
         })
     }
@@ -169,11 +169,11 @@ impl Volume {
 
 /// Goes through the crossings of parts in order. Those that are close together are one boundary, at which several parts
 /// change; it is one of the volume where the whole then holds and did not, or the other way round.
-fn changes(crossings: &[Boundary], holding: &mut Holding, mut tell: impl FnMut(Boundary)) {
+fn changes(crossings: &[Boundary], holding: &mut Holding, merging: &Merging, mut tell: impl FnMut(Boundary)) {
     let mut held = holding.holds();
     let mut rest = crossings;
     while let Some(first) = rest.first() {
-        let merged = rest.iter().take_while(|c| !starts_boundary(first.depth, c.depth)).count();
+        let merged = rest.iter().take_while(|c| !merging.starts_boundary(first.depth, c.depth)).count();
         let mut holds = held;
         let mut changed = None;
         for crossing in &rest[..merged] {

@@ -56,7 +56,7 @@ pub fn write_aov(path: &Path, aov: Aov, plan: &Plan, aovs: &Aovs) -> Result<(), 
             let table = serde_json::to_string_pretty(&map.json()).unwrap_or_default();
             write_whole(&path.with_extension("json"), (table + "\n").as_bytes())
         }
-        Aov::Depth => write_exr(path, size, &[("Z", aovs.depth.clone())]),
+        Aov::Depth => write_exr(path, size, &[("Z", aovs.depth.iter().map(|depth| *depth as f32).collect())]),
         Aov::Normal => {
             let axis = |i: usize| aovs.normals.iter().map(|n| n[i]).collect();
             write_exr(path, size, &[("R", axis(0)), ("G", axis(1)), ("B", axis(2))])

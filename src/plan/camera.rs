@@ -2,20 +2,27 @@
 
 use glam::DVec3;
 
-use super::instances;
 use super::lenses::Placed;
+use super::{anchor, instances};
 use crate::InputError;
 use crate::scene::{Aabb, Camera, Scene};
 use crate::spec::{By, CameraPlace, ProjectionSpec, Spec};
-use crate::view::{Projection, View};
+use crate::view::{Anchor, Merging, Projection, View};
 
 /// Where the default camera looks from, seen from the centre of the bounds.
 const DEFAULT_DIRECTION: DVec3 = DVec3::new(1.0, 0.7, 1.3);
 const DEFAULT_FOV_Y: f64 = 45.0;
 /// Fitted planes keep at least this share of the depth away from what they must not cut.
 const LEAST_MARGIN: f64 = 1e-4;
-/// A fitted near plane is never closer than this share of the far one.
-const NEAR_SHARE: f64 = 1e-6;
+/// How near the fitted near plane of an eye among what it sees is, as a share of how far that is: nothing is lost by a
+/// very near plane, as drawn depths are floating-point numbers that fall with the distance.
+const NEAREST: f64 = 1e-12;
+/// What double precision leaves of the eye's own coordinates.
+const EYE_ROUNDING: f64 = 1e-14;
+/// Farther than this single precision does not count.
+const FARTHEST: f64 = 1e36;
+/// Of what a scene's depth comes to, no more than so many pictures counts as what is drawn.
+const DEEPEST: f64 = 8.0;
 
 /// The camera of a spec; near and far are placeholders until [`fit_depths`].
 pub(super) fn place(spec: &Spec, scene: &Scene) -> Result<View, InputError> {
@@ -57,8 +64,9 @@ fn free_view(
         ProjectionSpec::FovY(degrees) => Projection::Perspective { tan_half_y: (degrees.to_radians() * 0.5).tan() },
         ProjectionSpec::OrthographicHeight(height) => Projection::Orthographic { half_height: height * 0.5 },
     };
-    let mut view =
-        View { eye: target, right, up: right.cross(forward), forward, projection, near: 0.0, far: 1.0, size };
+    let up = right.cross(forward);
+    let anchor = Anchor::default();
+    let mut view = View { eye: target, right, up, forward, projection, anchor, near: 0.0, far: 1.0, size };
     view.eye = eye.unwrap_or_else(|| target - forward * fitting_distance(&view, &bounds));
     Ok(view)
 }
@@ -111,10 +119,12 @@ fn node_view(size: [u32; 2], name: &str, scene: &Scene) -> Result<View, (String,
         Camera::Orthographic { half_height, near, far } => (Projection::Orthographic { half_height }, near, far),
     };
     let eye = node.world_from_local.translation;
-    Ok(View { eye, right, up: right.cross(forward), forward, projection, near, far, size })
+    let anchor = Anchor::default();
+    Ok(View { eye, right, up: right.cross(forward), forward, projection, anchor, near, far, size })
 }
 
-/// Sets near and far: as given, else as the file's camera has them, else so that nothing in front of the eye is cut.
+/// Sets near and far: as given, else as the file's camera has them, else so that nothing in front of the eye is cut; and
+/// where depths are counted from.
 pub(super) fn fit_depths(
     view: &mut View,
     spec: &Spec,
@@ -126,7 +136,9 @@ pub(super) fn fit_depths(
     let (given_near, given_far) = camera
         .map_or((None, None), |c| (c.value.near.as_ref().map(|n| n.value), c.value.far.as_ref().map(|f| f.value)));
     let from_file = camera.is_some_and(|c| matches!(c.value.place, CameraPlace::Node(_)));
-    let (fitted_near, fitted_far) = fitted(view, spec, scene, volumes, order);
+    let (depth, unit) = anchor::find(view, scene);
+    let content = Content::new(view, spec, scene, volumes, order);
+    let Fitted { near: fitted_near, far: fitted_far, drawn } = content.fitted(view, depth, unit);
     let (near, far) = if from_file { (view.near, view.far) } else { (fitted_near, fitted_far) };
     view.near = given_near.unwrap_or(near);
     view.far = given_far.unwrap_or(if far.is_finite() { far } else { fitted_far.max(view.near * 2.0) });
@@ -135,7 +147,7 @@ pub(super) fn fit_depths(
         match (given_near, given_far) {
             (Some(near), None) => view.far = near + near.abs().max(1.0),
             (None, Some(far)) => {
-                view.near = if view.is_perspective() { far * NEAR_SHARE } else { far - far.abs().max(1.0) }
+                view.near = if view.is_perspective() { far * NEAREST } else { far - far.abs().max(1.0) }
             }
             _ => {
                 let message = format!("near ({}) must be smaller than far ({})", view.near, view.far);
@@ -144,42 +156,94 @@ pub(super) fn fit_depths(
             }
         }
     }
+    let drawn = [drawn[0].max(view.near), drawn[1].min(view.far)];
+    let drawn = if drawn[0] < drawn[1] { drawn } else { [view.near, view.far] };
+    let merging = Merging {
+        eye: view.is_perspective().then_some(depth),
+        most: 1e-6 * content.diagonal(view),
+        across: view.half_diagonal() * if view.is_perspective() { depth } else { 1.0 },
+    };
+    view.anchor = Anchor { depth, unit, drawn: drawn.map(|from_eye| from_eye - depth), merging };
+    (view.near, view.far) = (view.near - depth, view.far - depth);
     Ok(())
 }
 
-fn fitted(view: &View, spec: &Spec, scene: &Scene, volumes: &[Option<Placed>], order: &[usize]) -> (f64, f64) {
-    let hulls = volumes.iter().flatten().flat_map(|placed| placed.volume.hull());
-    let models = scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty()).flat_map(|b| b.corners());
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    // Whatever lenses move is seen inside them only, but a flat lens reaches as far as there is something to see, and what
-    // moves whole objects shows them wherever that is.
-    let mut points: Vec<DVec3> = models.chain(hulls).collect();
-    let mut seen = Aabb::from_points(points.iter().copied());
-    for index in order {
-        let (Some(placed), lens) = (&volumes[*index], &spec.lenses[*index]) else { continue };
-        if lens.by == By::Pixel && placed.volume.bounds().size().is_finite() {
-            continue;
-        }
-        for filter in &lens.filters {
-            if let Some(reach) = instances::reach(&filter.value, placed, &seen, view) {
-                points.extend(reach.corners());
-                seen = seen.union(reach);
+/// What there is to be seen.
+struct Content {
+    /// World bounds of the models.
+    bounds: Aabb,
+    /// The depths from the eye of all of the scene, where lenses move it too, and of the lenses.
+    scene: [f64; 2],
+    lenses: [f64; 2],
+}
+
+/// Planes that cut nothing, as depths from the eye.
+struct Fitted {
+    near: f64,
+    far: f64,
+    /// Around all of the scene that may be seen.
+    drawn: [f64; 2],
+}
+
+const NONE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+fn both(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+impl Content {
+    fn new(view: &View, spec: &Spec, scene: &Scene, volumes: &[Option<Placed>], order: &[usize]) -> Self {
+        let models = || scene.models.iter().map(|m| m.bounds()).filter(|b| !b.is_empty());
+        let hulls: Vec<DVec3> = volumes.iter().flatten().flat_map(|placed| placed.volume.hull()).collect();
+        let bounds = models().fold(Aabb::EMPTY, Aabb::union);
+        // Whatever lenses move is seen inside them only, but a flat lens reaches as far as there is something to see, and
+        // what moves whole objects shows them wherever that is.
+        let mut points: Vec<DVec3> = models().flat_map(|b| b.corners()).collect();
+        let mut seen = Aabb::from_points(points.iter().chain(&hulls).copied());
+        for index in order {
+            let (Some(placed), lens) = (&volumes[*index], &spec.lenses[*index]) else { continue };
+            let is_bounded = lens.by == By::Pixel && placed.volume.bounds().size().is_finite();
+            for filter in &lens.filters {
+                if let Some(reach) = instances::reach(&filter.value, placed, &seen, view) {
+                    points.extend(if is_bounded { placed.volume.bounds().corners() } else { reach.corners() });
+                    if !is_bounded {
+                        seen = seen.union(reach);
+                    }
+                }
             }
         }
+        let depths = |points: &[DVec3]| {
+            let depths = points.iter().map(|p| view.depth(*p)).filter(|depth| depth.is_finite());
+            depths.fold(NONE, |range, depth| both(range, [depth, depth]))
+        };
+        Self { bounds, scene: depths(&points), lenses: depths(&hulls) }
     }
-    for depth in points.into_iter().map(|p| view.depth(p)) {
-        low = low.min(depth);
-        high = high.max(depth);
+
+    /// Room is kept for rounding, which is a share of depths as they are counted from `anchor`; `unit`: as
+    /// [`Anchor::unit`].
+    fn fitted(&self, view: &View, anchor: f64, unit: f64) -> Fitted {
+        let [low, high] = both(self.scene, self.lenses);
+        let [low, high] = if low > high { [0.0, 1.0] } else { [low, high] };
+        let margin = |[low, high]: [f64; 2]| {
+            let farthest = (low - anchor).abs().max((high - anchor).abs()).max(1e-5 * unit);
+            (0.01 * (high - low)).max(LEAST_MARGIN * farthest)
+        };
+        let wider = |range: [f64; 2]| [range[0] - margin(range), range[1] + margin(range)];
+        let [near, far] = wider([low, high]);
+        let drawn = if self.scene[0] > self.scene[1] { [near, far] } else { wider(self.scene) };
+        if !view.is_perspective() {
+            return Fitted { near: near.max(-FARTHEST), far: far.min(FARTHEST), drawn };
+        }
+        let nearest = (NEAREST * unit).max(EYE_ROUNDING * view.eye.abs().max_element());
+        let far = if high > 0.0 { far.min(FARTHEST) } else { 1.0 };
+        Fitted { near: near.max(nearest), far, drawn }
     }
-    if low > high {
-        (low, high) = (0.0, 1.0);
+
+    /// Of what the picture shows. All of an orthographic picture is drawn to one scale, so that of a scene far larger than
+    /// it only that counts; what a perspective one shows is as large as it is far.
+    fn diagonal(&self, view: &View) -> f64 {
+        let range = both(self.scene, self.lenses);
+        let whole = if self.bounds.is_empty() { (range[1] - range[0]).max(0.0) } else { self.bounds.size().length() };
+        if view.is_perspective() { whole } else { whole.min(DEEPEST * view.half_diagonal()) }
     }
-    // Depths are f32 in the backends: what is flat and faces the camera must not fall out by rounding.
-    let rounding = LEAST_MARGIN * low.abs().max(high.abs()).max(1e-5);
-    let margin = (0.01 * (high - low)).max(rounding);
-    if !view.is_perspective() {
-        return (low - margin, high + margin);
-    }
-    let far = if high > 0.0 { high + margin } else { 1.0 };
-    ((low - margin).max(far * NEAR_SHARE), far)
 }

@@ -209,9 +209,9 @@ impl Plan {
         body.members.iter().fold(LensSet::EMPTY, |all, member| all | own(member))
     }
 
-    /// The lenses that do not act on the caps of a lens or rule: those below; a rule is above all lenses.
+    /// The lenses that do not act on the caps of a lens or rule: those below the lens. A rule has no place in the order.
     pub fn below_cap(&self, maker: usize) -> LensSet {
-        LensSet::below(maker.min(self.lenses.len()))
+        if maker < self.lenses.len() { LensSet::below(maker) } else { LensSet::EMPTY }
     }
 
     /// What closes an instance at a boundary, if anything does.

@@ -206,7 +206,8 @@ const BESIDE_THE_EYE: f64 = 1e-9;
 fn magnified_in_sight(factor: f64, center: DVec3, view: &View) -> DAffine3 {
     let (fixed, mut along) = (if view.is_perspective() { view.eye } else { center }, view.forward);
     if view.is_perspective() {
-        let (away, depth) = (center - view.eye, view.depth(center));
+        let away = center - view.eye;
+        let depth = away.dot(view.forward);
         if depth.abs() > BESIDE_THE_EYE * away.length() {
             along = away / depth;
         }

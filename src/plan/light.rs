@@ -17,21 +17,12 @@ pub struct LightRecord {
     pub range: f32,
     pub cos_inner: f32,
     pub cos_outer: f32,
-    /// World space.
+    /// Relative to the view's origin, along the world's axes.
     pub position: [f32; 4],
     /// The way the light travels, unit length, world space.
     pub direction: [f32; 4],
     /// Linear colour times intensity.
     pub color: [f32; 4],
-}
-
-impl LightRecord {
-    /// The light in a space whose origin is the eye, where single precision holds near the viewer.
-    pub fn around(&self, eye: glam::DVec3) -> Self {
-        let [x, y, z, w] = self.position;
-        let offset = Vec3::new(x, y, z).as_dvec3() - eye * f64::from(w);
-        Self { position: offset.as_vec3().extend(w).to_array(), ..*self }
-    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +42,7 @@ pub(super) fn resolve(spec: &Spec, scene: &Scene, view: &View) -> Lighting {
     if let Some(light) = &spec.light {
         return Lighting { ambient: light.ambient, up, lights: declared(light) };
     }
-    let file = file_lights(&scene.models[0]);
+    let file = file_lights(&scene.models[0], view.origin());
     if file.is_empty() {
         Lighting { ambient: RIG_AMBIENT, up, lights: rig(view) }
     } else {
@@ -92,12 +83,12 @@ fn rig(view: &View) -> Vec<LightRecord> {
     ]
 }
 
-fn file_lights(model: &Model) -> Vec<LightRecord> {
+fn file_lights(model: &Model, origin: glam::DVec3) -> Vec<LightRecord> {
     let lit = model.nodes.iter().filter(|n| n.is_shown()).filter_map(|n| Some((n, &model.lights[n.light?])));
     lit.map(|(node, light)| {
         let forward = -node.world_from_local.matrix3.z_axis;
         let base = directional(forward.normalize_or(glam::DVec3::NEG_Z).as_vec3(), light.color, light.intensity);
-        let position = node.world_from_local.translation.as_vec3().extend(1.0).to_array();
+        let position = (node.world_from_local.translation - origin).as_vec3().extend(1.0).to_array();
         let range = light.range.unwrap_or(0.0);
         match light.kind {
             LightKind::Directional => base,

@@ -3,6 +3,7 @@
 //! Order, contents, items and filters are decided here; a backend never sees the spec.
 
 mod account;
+mod anchor;
 mod camera;
 mod caps;
 mod decide;
@@ -100,7 +101,7 @@ pub struct Plan {
 /// Maps the bounds of the scene to 0..1: `(p - origin) * scale`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureSpace {
-    pub origin: glam::Vec3,
+    pub origin: glam::DVec3,
     pub scale: f32,
 }
 
@@ -167,9 +168,9 @@ impl Plan {
 fn texture_space(scene: &Scene) -> TextureSpace {
     let bounds = scene.models[0].bounds();
     if bounds.is_empty() {
-        return TextureSpace { origin: glam::Vec3::ZERO, scale: 1.0 };
+        return TextureSpace { origin: glam::DVec3::ZERO, scale: 1.0 };
     }
     let side = bounds.size().max_element().max(f64::MIN_POSITIVE);
     let origin = bounds.center() - glam::DVec3::splat(0.5 * side);
-    TextureSpace { origin: origin.as_vec3(), scale: (1.0 / side) as f32 }
+    TextureSpace { origin, scale: (1.0 / side) as f32 }
 }

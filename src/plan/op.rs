@@ -224,14 +224,29 @@ impl<'a> Ops<'a> {
         // A range without a length shows one colour, the low one.
         let scale = if high > low { 1.0 / (high - low) } else { 0.0 };
         let texture = *prepared(self.scene.color_maps.get(colormap), || format!("the colour map `{colormap}`"))?;
-        let op = self.reading(Op::new(kind, NONE, [low as f32, scale as f32, 0.0, 0.0]), quantity);
+        let op = self.reading(
+            Op::new(kind, NONE, [(low - self.counted_from(quantity)) as f32, scale as f32, 0.0, 0.0]),
+            quantity,
+        );
         Ok(Op { texture, ..op.flagged(wgsl::MAPPED.0, true) })
     }
 
     fn contours(&mut self, quantity: &Quantity, spacing: Option<f64>, width: f32) -> Result<Op, InputError> {
         let [low, high] = self.fitted(quantity)?;
         let spacing = spacing.unwrap_or_else(|| round_spacing((high - low) / 10.0));
-        Ok(self.reading(Op::new(wgsl::OP_CONTOURS, NONE, [0.0, 0.0, spacing as f32, width]), quantity))
+        let from = self.counted_from(quantity);
+        let beyond = from - (from / spacing).round() * spacing;
+        Ok(self.reading(Op::new(wgsl::OP_CONTOURS, NONE, [beyond as f32, 0.0, spacing as f32, width]), quantity))
+    }
+
+    /// What shaders count a quantity from: positions are relative to the view's origin there, so that they have their
+    /// digits far from the scene's.
+    fn counted_from(&self, quantity: &Quantity) -> f64 {
+        match quantity {
+            Quantity::Height => self.view.origin().y,
+            Quantity::Depth => self.view.from_eye(0.0),
+            Quantity::Slope | Quantity::Curvature | Quantity::Attribute(_) => 0.0,
+        }
     }
 
     /// The same, told what it reads.
@@ -282,12 +297,12 @@ fn named(what: &str, path: &Path) -> String {
     format!("{what} {}", path.display())
 }
 
-/// The depths of bounds between near and far.
+/// The depths from the eye of bounds between near and far.
 fn depths(view: &View, bounds: &Aabb) -> [f64; 2] {
     if bounds.is_empty() {
-        return [view.near, view.far];
+        return [view.near, view.far].map(|depth| view.from_eye(depth));
     }
-    let corners = bounds.corners().map(|p| view.depth(p).clamp(view.near, view.far));
+    let corners = bounds.corners().map(|p| view.from_eye(view.depth(p).clamp(view.near, view.far)));
     [corners.into_iter().fold(f64::INFINITY, f64::min), corners.into_iter().fold(f64::NEG_INFINITY, f64::max)]
 }
 

@@ -39,7 +39,7 @@ impl Expected {
             regions: ids.iter().map(|id| table.place(*id)).collect::<Result<_, _>>()?,
             table: table.regions.clone(),
             nodes: gray16(&folder.join("node.png"))?.1.into_iter().map(u32::from).collect(),
-            depth: npy::read_f32(&folder.join("depth.npy"), size)?,
+            depth: npy::read_f32(&folder.join("depth.npy"), size)?.into_iter().map(f64::from).collect(),
             layers: gray16(&folder.join("layers.png"))?.1,
             ..Aovs::default()
         };

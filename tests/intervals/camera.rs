@@ -1,7 +1,7 @@
 //! Random cameras, and where they stand to a solid.
 
 use glam::DVec3;
-use lenspeel::view::{Projection, View};
+use lenspeel::view::{Anchor, Projection, View};
 
 use crate::facets::frame;
 use crate::random::Random;
@@ -57,7 +57,8 @@ pub fn camera(random: &mut Random, size: [u32; 2]) -> View {
         Projection::Orthographic { half_height: random.between(0.5, 2.5) }
     };
     let eye = direction(random) * random.between(0.0, 4.0);
-    View { eye, right, up: right.cross(forward), forward, projection, near: 0.0, far: 1.0, size }
+    let (up, anchor) = (right.cross(forward), Anchor::default());
+    View { eye, right, up, forward, projection, anchor, near: 0.0, far: 1.0, size }
 }
 
 /// Where the eye must be for the solid to stand as wanted, as seen along the camera's forward axis.

@@ -164,7 +164,7 @@ fn block(min: f64, max: f64) -> At<Shape> {
 
 /// Along x through the middle.
 fn along_x(shape: Shape) -> Vec<[f64; 2]> {
-    let ray = Ray { origin: DVec3::ZERO, direction: DVec3::X };
+    let ray = Ray::new(DVec3::ZERO, DVec3::X);
     intervals(&plain(shape), &ray, 0.5, 10.0).iter().map(|i| [i.entry, i.exit]).collect()
 }
 

@@ -37,10 +37,10 @@ fn a_line_beside_a_solid_misses_it_and_one_through_it_does_not() {
                 continue;
             }
             let reach = solid.size + touched.distance(solid.middle);
-            let beside = Ray { origin: touched + normal * 1e-7 * reach - along * 2.0, direction: along };
+            let beside = Ray::new(touched + normal * 1e-7 * reach - along * 2.0, along);
             assert_eq!(interval(&solid.volume, &beside), None, "{kind}: {:?}", solid.volume);
             let inner = touched + (solid.middle - touched) * 1e-5;
-            let through = Ray { origin: inner - along * 2.0, direction: along };
+            let through = Ray::new(inner - along * 2.0, along);
             let Some(found) = interval(&solid.volume, &through) else { panic!("{kind}: {:?}", solid.volume) };
             assert!(found.entry < 2.0 && found.exit > 2.0, "{kind}: {found:?} does not hold depth 2");
         }
@@ -54,6 +54,7 @@ fn plain(shape: &Shape) -> Volume {
         up: DVec3::Y,
         forward: DVec3::NEG_Z,
         projection: lenspeel::view::Projection::Perspective { tan_half_y: 1.0 },
+        anchor: lenspeel::view::Anchor::default(),
         near: 0.1,
         far: 10.0,
         size: [16, 16],
@@ -67,12 +68,12 @@ fn plain(shape: &Shape) -> Volume {
 fn ends_at(shape: &Shape, sharp: DVec3, inside: DVec3, random: &mut Random) {
     let volume = plain(shape);
     let direction = (inside - sharp) * random.between(0.5, 2.0);
-    let ray = Ray { origin: sharp - direction * random.between(0.5, 3.0), direction };
+    let ray = Ray::new(sharp - direction * random.between(0.5, 3.0), direction);
     let depth = (sharp - ray.origin).dot(direction) / direction.length_squared();
     let Some(found) = interval(&volume, &ray) else { panic!("{shape:?}: nothing along {ray:?}") };
     let close = |x: f64| (x - depth).abs() < 1e-6;
     assert!(close(found.entry), "{shape:?}: {found:?} does not begin at {depth} along {ray:?}");
-    let back = Ray { origin: ray.at(10.0), direction: -direction };
+    let back = Ray::new(ray.at(10.0), -direction);
     let Some(found) = interval(&volume, &back) else { panic!("{shape:?}: nothing along {back:?}") };
     assert!((found.exit - (10.0 - depth)).abs() < 1e-6, "{shape:?}: {found:?} along {back:?}");
 }
@@ -110,11 +111,11 @@ fn lines_along_the_axis_and_the_side_of_a_cylinder() {
     let shape = Shape::Cylinder { from: [0.0, 0.0, -1.0], to: [0.0, 0.0, 1.0], radius: 0.5 };
     let volume = plain(&shape);
     for x in [0.0, 0.25, 0.499_999] {
-        let ray = Ray { origin: DVec3::new(x, 0.0, 5.0), direction: DVec3::NEG_Z };
+        let ray = Ray::new(DVec3::new(x, 0.0, 5.0), DVec3::NEG_Z);
         let found = interval(&volume, &ray).expect("a line inside, along the axis");
         assert!((found.entry - 4.0).abs() < 1e-12 && (found.exit - 6.0).abs() < 1e-12, "{found:?}");
     }
-    let beside = Ray { origin: DVec3::new(0.500_001, 0.0, 5.0), direction: DVec3::NEG_Z };
+    let beside = Ray::new(DVec3::new(0.500_001, 0.0, 5.0), DVec3::NEG_Z);
     assert_eq!(interval(&volume, &beside), None);
 }
 

@@ -123,7 +123,7 @@ fn lenses_that_share_a_face_meet_without_gap_or_sliver() {
         let view = camera(&mut random, [16, 16]);
         let volumes = row(&mut random, &view, 4);
         let target = volumes[random.index(4)].center + DVec3::new(0.1, -0.05, 0.02) * random.between(-1.0, 1.0);
-        let ray = Ray { origin: view.eye, direction: (target - view.eye).normalize() };
+        let ray = Ray::new(view.eye, (target - view.eye).normalize());
         // Wide planes: the eye may be inside of one.
         let found = layers(&volumes, &ray, -100.0, 100.0);
         for start in &found.starts {
@@ -157,7 +157,7 @@ fn a_real_gap_stays_one() {
         };
         build(&shape, &placed, &view).expect("a box")
     };
-    let ray = Ray { origin: DVec3::ZERO, direction: DVec3::X };
+    let ray = Ray::new(DVec3::ZERO, DVec3::X);
     let counts = [0.0, 1e-7, 1e-4, 1e-3].map(|gap| {
         let volumes = [block(1.0, 2.0), block(2.0 + gap, 3.0)];
         layers(&volumes, &ray, 0.5, 10.0).count()

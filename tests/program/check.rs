@@ -67,7 +67,7 @@ fn names_that_may_have_been_meant_are_told() {
         filters = [{ erase = { nodes = ['cube-1-1'] } }]\nonly = { materials = ['corral', 'zzz'] }\n";
     let out = check_cubes("check-meant", lens);
     assert!(
-        out.contains("spec.toml:6: `erase` of lens `a` matches nothing: `cube-1-1`; did you mean `cube-1-1-"),
+        out.contains("spec.toml:6: `erase` of lens `a` matches nothing: `cube-1-1`; did you mean `cube-1-"),
         "{out}"
     );
     assert!(out.contains("`only` of lens `a` matches nothing: `corral`; did you mean `coral`?"), "{out}");

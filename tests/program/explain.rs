@@ -88,8 +88,8 @@ fn what_is_taken_away_and_seen_through_is_counted() {
     let erased = json["order"][1]["in_view"]["removes"]["pixels"].as_u64().expect("a number");
     assert!(erased > through, "{erased} of {through}");
     let pixel = call(&["explain", &spec, "--pixel", "30,30"]).good();
-    assert!(pixel.contains("not in open: its `except` in line 13 names this node or material"), "{pixel}");
-    assert!(pixel.contains("not in pale: its `only` in line 10 names neither this node nor its material"), "{pixel}");
+    assert!(pixel.contains("not in open: its `except` in line 17 names this node or material"), "{pixel}");
+    assert!(pixel.contains("not in pale: its `only` in line 12 names neither this node nor its material"), "{pixel}");
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn check(
         let or_nothing = |value: Option<u32>| value.unwrap_or(NOTHING);
         let wrong = [
             ("the node", found.as_ref().map_or(0, node) != aovs.nodes[at]),
-            ("the depth", found.map_or(f32::INFINITY, |pick| pick.depth) != aovs.depth[at]),
+            ("the depth", found.map_or(f64::INFINITY, |pick| pick.depth) != aovs.depth[at]),
             ("the region", found.map(|pick| pick.region) != aovs.region(at)),
             ("the instance", or_nothing(found.map(|pick| pick.instance)) != aovs.instances[at]),
             ("the triangle", or_nothing(found.map(|pick| pick.triangle)) != aovs.triangles[at]),

@@ -15,7 +15,7 @@ const SHARE: f64 = 0.002;
 /// Steps of 255 by which a colour may differ away from edges (SEMANTICS 7).
 const COLOR_STEPS: u8 = 2;
 /// Relative; depths below 1 are compared absolutely.
-const DEPTH: f32 = 1e-4;
+const DEPTH: f64 = 1e-4;
 
 /// For one property: which pixels are near an edge, and which do not count at all.
 #[derive(Debug, Clone)]
@@ -112,7 +112,7 @@ fn stacks(aovs: &Aovs) -> Vec<Option<LensSet>> {
     (0..aovs.regions.len()).map(|at| aovs.region(at).map(|region| region.stack)).collect()
 }
 
-fn same_depth(want: &f32, got: &f32) -> bool {
+fn same_depth(want: &f64, got: &f64) -> bool {
     if want.is_finite() && got.is_finite() {
         (want - got).abs() <= DEPTH * want.abs().max(1.0)
     } else {

@@ -32,9 +32,9 @@ pub fn changes<T: PartialEq>(size: [u32; 2], values: &[T]) -> Mask {
 
 /// Pixels within one pixel of a place where depth bends by more than a share of itself. On a plane depth (orthographic) or its inverse (perspective) is linear
 /// over the image, so one of the two second differences vanishes.
-pub fn depth_jumps(size: [u32; 2], depth: &[f32], least: f64) -> Mask {
+pub fn depth_jumps(size: [u32; 2], depth: &[f64], least: f64) -> Mask {
     let [width, height] = size.map(|side| side as usize);
-    let depth: Vec<f64> = depth.iter().map(|d| if d.is_finite() { f64::from(*d) } else { NOWHERE }).collect();
+    let depth: Vec<f64> = depth.iter().map(|d| if d.is_finite() { *d } else { NOWHERE }).collect();
     let bends = |before: f64, here: f64, after: f64| {
         let share = |a: f64, b: f64, c: f64| (a - 2.0 * b + c).abs() / b.abs();
         share(before, here, after).min(share(1.0 / before, 1.0 / here, 1.0 / after)) > least

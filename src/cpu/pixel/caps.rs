@@ -5,12 +5,12 @@ use std::sync::Arc;
 use super::{BlockRays, OneRay, Tracer, seen_range};
 use crate::cpu::block::Block;
 use crate::cpu::geometry::Geometry;
-use crate::lens::{Boundary, RayLayers, starts_boundary};
+use crate::lens::{Boundary, RayLayers};
 use crate::pieces::{Around, Role};
 use crate::pixel::{Fragment, cap_number};
 use crate::plan::{Body, Closing, Instance, LensSet, Member, Plan};
 use crate::scene::{Closure, Scene};
-use crate::view::Ray;
+use crate::view::{Merging, Ray};
 
 /// The nodes that may be cut, whole: what lenses erase and what lies behind the far plane tells as well where their
 /// inside is.
@@ -87,6 +87,7 @@ impl Tracer<'_> {
         });
         crossings.sort_unstable_by_key(|crossing| (crossing.ray, crossing.body));
         let mut caps: Vec<(f64, Fragment)> = Vec::new();
+        let merging = self.plan.view.anchor.merging;
         for met in crossings.chunk_by(|a, b| a.ray == b.ray) {
             let ray = met[0].ray;
             caps.clear();
@@ -96,7 +97,7 @@ impl Tracer<'_> {
             }
             // Stable: at one boundary the first body stays first.
             caps.sort_by(|a, b| a.0.total_cmp(&b.0));
-            caps.dedup_by(|next, first| !starts_boundary(first.0, next.0));
+            caps.dedup_by(|next, first| !merging.starts_boundary(first.0, next.0));
             listed.extend(caps.iter().map(|(_, cap)| (ray, *cap)));
         }
     }
@@ -108,7 +109,7 @@ impl Tracer<'_> {
         // Members are moved alike.
         let steps = &instance(&body.members[0]).steps;
         let layers = moved.all(self.plan, ray, layers, steps);
-        for boundary in boundaries((0..=steps.len()).map(&layers)) {
+        for boundary in boundaries((0..=steps.len()).map(&layers), &ray.merging) {
             if opaque.is_some_and(|(opaque, _)| f64::from(opaque.depth) < boundary) {
                 continue;
             }
@@ -116,7 +117,9 @@ impl Tracer<'_> {
                 if behind { layers(steps).set_at(boundary) } else { layers(steps).set_before(boundary) }
             };
             let closed = |member: &Member| Some((member.instance, self.plan.closing(instance(member), set)?));
-            let Some((number, closing)) = around(body, crossings, boundary).find_map(closed) else { continue };
+            let Some((number, closing)) = around(body, crossings, boundary, &ray.merging).find_map(closed) else {
+                continue;
+            };
             let cap = Fragment {
                 instance: number as u32,
                 triangle: cap_number(closing.maker),
@@ -130,11 +133,11 @@ impl Tracer<'_> {
 }
 
 /// The depths of all boundaries, each once, nearest first.
-fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>) -> Vec<f64> {
+fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>, merging: &Merging) -> Vec<f64> {
     let mut depths: Vec<f64> =
         layers.flat_map(|layers| layers.starts.iter().skip(1)).map(|start| start.depth).collect();
     depths.sort_unstable_by(f64::total_cmp);
-    depths.dedup_by(|next, first| !starts_boundary(*first, *next));
+    depths.dedup_by(|next, first| !merging.starts_boundary(*first, *next));
     depths
 }
 
@@ -142,9 +145,15 @@ fn boundaries<'l>(layers: impl Iterator<Item = &'l RayLayers>) -> Vec<f64> {
 /// boundary lies outside.
 ///
 /// Told by what lies behind, so that it makes no difference where the ray starts. A surface in the boundary lies behind it.
-fn around<'b>(body: &'b Body, crossings: &'b [Crossing], boundary: f64) -> impl Iterator<Item = &'b Member> {
+fn around<'b>(
+    body: &'b Body,
+    crossings: &'b [Crossing],
+    boundary: f64,
+    merging: &Merging,
+) -> impl Iterator<Item = &'b Member> + use<'b> {
+    let merging = *merging;
     let is_inside = move |counts: &dyn Fn(usize) -> bool| {
-        let behind = crossings.iter().filter(|crossing| !starts_boundary(f64::from(crossing.depth), boundary));
+        let behind = crossings.iter().filter(|crossing| !merging.starts_boundary(f64::from(crossing.depth), boundary));
         let mut around = Around::default();
         behind
             .filter(|crossing| counts(crossing.member as usize))

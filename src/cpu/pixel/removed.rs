@@ -1,6 +1,6 @@
 //! What is not seen because a lens takes it away, for `explain`.
 
-use super::{MovedLayers, ShearedRay, Tracer};
+use super::{MovedLayers, Tracer};
 use crate::lens::RayLayers;
 use crate::pixel::{Fragment, Removed};
 use crate::plan::Region;
@@ -14,12 +14,12 @@ impl Tracer<'_> {
         let ray = view.ray(x, y);
         let mut layers = RayLayers::default();
         layers.find(ranks.iter().map(|rank| (*rank, &self.plan.lenses[*rank].volume)), &ray, view.near, view.far);
-        let (origin, direction) = self.traced(&ray);
-        let sheared = ShearedRay::new(origin, direction);
+        let sheared = self.traced(&ray);
         let mut moved = MovedLayers::default();
         let mut removed = Vec::new();
-        for triangle in self.geometry.iter().flat_map(|geometry| &geometry.triangles) {
-            let Some(hit) = sheared.hit(&triangle.corners) else { continue };
+        let all = self.geometry.iter().flat_map(|geometry| geometry.triangles.iter().map(move |own| (geometry, own)));
+        for (geometry, triangle) in all {
+            let Some(hit) = geometry.hit(&sheared, triangle) else { continue };
             let depth = self.depth_of(triangle, &hit, &ray);
             let in_view = depth >= view.near as f32 && depth < before.min(view.far as f32);
             if !in_view || self.is_culled(triangle, &ray) {

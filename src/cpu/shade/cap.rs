@@ -27,14 +27,14 @@ impl Shader<'_> {
         // Its lines lie where it is cut.
         let source = instance.source_from_shown(maker, false);
         let space = &self.plan.texture_space;
-        let mapped = source.transform_point3(position.as_dvec3() + self.plan.view.eye) - space.origin.as_dvec3();
+        let mapped = source.transform_point3(position.as_dvec3() + self.origin) - space.origin;
         let direction = g3(wgsl::cap_direction(v3(normal), cap.variant));
         let along = direction.dot(mapped.as_vec3() * space.scale);
         let steps = steps_at_source(&source, wgsl::steps_at(*ray, v3(position), v3(normal)));
         let span = wgsl::cap_span(steps, v3(direction)) * space.scale;
         let mut stack = fragment.region.stack;
         stack.remove(maker);
-        let corners = self.piece(fragment, position, normal);
+        let corners = self.piece(fragment, ray, normal);
         let weights = Vec3::X;
         let hit = Hit { instance, corners: &corners, weights, position, normal, ray };
         self.staged(wgsl::cap_surface(cap, own, along, span), &hit, stack, passed)
@@ -46,7 +46,7 @@ impl Shader<'_> {
             let item = &self.plan.items[self.plan.instances[instance as usize].item];
             (item, untextured(&self.scene.materials[item.material], position, normal, ray))
         };
-        let place = self.plan.instances[instance as usize].place_of(position.as_dvec3() + self.plan.view.eye);
+        let place = self.plan.instances[instance as usize].place_of(position.as_dvec3() + self.origin);
         let nearest = || {
             let body = self.bodies[instance as usize]? as usize;
             let (face, weights) = self.own[body].as_ref()?.nearest(place)?;
@@ -66,7 +66,7 @@ impl Shader<'_> {
             // As many texels as there are on the surface over the length that a pixel spans on the cap.
             let texels = ((ub - ua) * size).perp_dot((uc - ua) * size).abs();
             let [a, b, c] = corners.around;
-            let area = (b - a).cross(c - a).length().max(f32::MIN_POSITIVE);
+            let area = (b - a).as_dvec3().cross((c - a).as_dvec3()).length().max(f64::from(f32::MIN_POSITIVE)) as f32;
             let span = g2(wgsl::position_footprint(*ray, v3(position), v3(normal))).max_element();
             let at = ua * weights.x + ub * weights.y + uc * weights.z;
             own.texel = v4(texture::sample(&self.scene.textures, slot.texture, at, span * (texels / area).sqrt()));
@@ -75,13 +75,14 @@ impl Shader<'_> {
     }
 
     /// A triangle in a cap's plane, its first corner where a ray meets it.
-    fn piece(&self, fragment: &Fragment, position: Vec3, normal: Vec3) -> Corners<'_> {
-        let size = wgsl::CAP_PIECE.0 * position.length();
+    fn piece(&self, fragment: &Fragment, ray: &wgsl::PixelRay, normal: Vec3) -> Corners<'_> {
+        let position = g3(ray.origin) + g3(ray.direction) * fragment.depth;
+        let size = wgsl::cap_piece(*ray, fragment.depth);
         let corner = |number| g3(wgsl::cap_corner(number, v3(position), v3(normal), size));
         let number = fragment.instance as usize;
         let primitive = self.plan.items[self.plan.instances[number].item].primitive_of(self.scene);
-        let (around, to_eye) = ([0, 1, 2].map(corner), &self.transforms[number].point);
-        Corners { primitive, indices: [0; 3], around, to_eye, triangle: None }
+        let (around, to_origin) = ([0, 1, 2].map(corner), &self.transforms[number].point);
+        Corners { primitive, indices: [0; 3], around, to_origin, triangle: None }
     }
 }
 

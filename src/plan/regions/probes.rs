@@ -61,7 +61,7 @@ fn axis_probes(bounds: &Aabb, grid: usize, probes: &mut Vec<Probe>) {
             let mut origin = bounds.min;
             origin[a] += u * size[a];
             origin[b] += v * size[b];
-            let ray = Ray { origin, direction: DVec3::AXES[axis] };
+            let ray = Ray::new(origin, DVec3::AXES[axis]);
             probes.push((ray, -1e-3 * size[axis], 1.001 * size[axis]));
         }
     }

@@ -202,10 +202,10 @@ impl Body {
     }
 }
 
-/// What lenses below the one that makes a cap do, they do not do to it; a rule is above all.
+/// What lenses below the one that makes a cap do, they do not do to it; a rule has no place in the order.
 fn without_lower(stage: &Stage, behind: &Met, by: Actor) -> Met {
-    let Stack::Lenses(lenses) = &behind.stack else { return behind.clone() };
+    let (Stack::Lenses(lenses), Actor::Lens(maker)) = (&behind.stack, by) else { return behind.clone() };
     let place = |lens: usize| stage.composition.order.iter().position(|other| *other == lens);
-    let stays = |lens: &usize| matches!(by, Actor::Lens(maker) if place(*lens) >= place(maker));
+    let stays = |lens: &usize| place(*lens) >= place(maker);
     Met { stack: Stack::Lenses(lenses.iter().copied().filter(stays).collect()), ..behind.clone() }
 }

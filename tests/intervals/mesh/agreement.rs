@@ -24,7 +24,7 @@ fn agrees(triangles: &[Triangle], outside: Outside, seed: u64) {
         for _ in 0..RAYS / 20 {
             let aim = volume.center + direction(&mut random) * random.between(0.0, 1.0);
             let direction = direction(&mut random);
-            let ray = Ray { origin: aim - direction * random.between(0.0, 3.0), direction };
+            let ray = Ray::new(aim - direction * random.between(0.0, 3.0), direction);
             let found = intervals(&volume, &ray, -2.0, 6.0);
             check(&volume, outside, &own, &ray, &found).unwrap_or_else(|e| panic!("{e}: {placement:?}"));
             several += usize::from(found.len() > 1);
@@ -52,7 +52,7 @@ fn another_solid_is_noticed() {
     let thicker: Outside = |p| outside_torus(p) - 0.02;
     let wrong = (0..RAYS / 10).filter(|_| {
         let direction = direction(&mut random);
-        let ray = Ray { origin: direction * -2.0 + DVec3::new(0.7, 0.0, 0.0), direction };
+        let ray = Ray::new(direction * -2.0 + DVec3::new(0.7, 0.0, 0.0), direction);
         let found = intervals(&volume, &ray, -2.0, 6.0);
         check(&volume, outside_torus, &DAffine3::IDENTITY, &ray, &found).unwrap_or_else(|e| panic!("{e}"));
         check(&volume, thicker, &DAffine3::IDENTITY, &ray, &found).is_err()
@@ -70,7 +70,7 @@ fn boundaries_are_where_the_triangles_are() {
     for _ in 0..200 {
         let direction = direction(&mut random);
         let aim = DVec3::new(random.between(-0.9, 0.9), random.between(-0.9, 0.9), random.between(-0.2, 0.2));
-        let ray = Ray { origin: aim - direction * 3.0, direction };
+        let ray = Ray::new(aim - direction * 3.0, direction);
         let mut hits: Vec<f64> = triangles.iter().filter_map(|t| crossing(t, &ray)).collect();
         hits.sort_by(f64::total_cmp);
         let found: Vec<f64> = intervals(&volume, &ray, -9.0, 9.0).iter().flat_map(|i| [i.entry, i.exit]).collect();

@@ -32,7 +32,7 @@ fn a_cube_of_triangles_is_a_box() {
             1 => (direction(&mut random) * 4.0, lattice(&mut random) * 0.5),
             _ => (direction(&mut random) * 4.0, direction(&mut random)),
         };
-        let ray = Ray { origin: from, direction: (to - from).normalize_or(DVec3::X) };
+        let ray = Ray::new(from, (to - from).normalize_or(DVec3::X));
         let expected = intervals(&closed, &ray, -9.0, 9.0);
         for mesh in &meshes {
             let found = intervals(mesh, &ray, -9.0, 9.0);
@@ -70,7 +70,7 @@ fn rays_through_corners_and_edges_leak_nowhere() {
             2 => (triangles[random.index(triangles.len())][0] - through).normalize_or(DVec3::Z),
             _ => direction(&mut random),
         };
-        let ray = Ray { origin: through - direction * 2.0, direction };
+        let ray = Ray::new(through - direction * 2.0, direction);
         let found = intervals(&volume, &ray, -2.0, 6.0);
         check(&volume, outside_torus, &DAffine3::IDENTITY, &ray, &found).unwrap_or_else(|e| panic!("{e}: {ray:?}"));
     }
@@ -87,7 +87,7 @@ fn how_triangles_are_turned_does_not_matter() {
     let [one, other] = [torus(), turned].map(|t| placed(&t, Convex::Decompose, &unmoved()));
     for _ in 0..400 {
         let direction = direction(&mut random);
-        let ray = Ray { origin: DVec3::new(0.6, 0.3, 0.0) - direction * 2.0, direction };
+        let ray = Ray::new(DVec3::new(0.6, 0.3, 0.0) - direction * 2.0, direction);
         let [found, same] = [&one, &other].map(|volume| intervals(volume, &ray, 0.0, 6.0));
         let equal = |(a, b): (&Interval, &Interval)| (a.entry - b.entry).abs().max((a.exit - b.exit).abs()) < 1e-12;
         assert!(found.len() == same.len() && found.iter().zip(&same).all(equal), "{found:?} and {same:?}");
@@ -97,7 +97,7 @@ fn how_triangles_are_turned_does_not_matter() {
 #[test]
 fn two_cubes_that_touch_are_one_solid() {
     let shifted = |by: DVec3| cube().into_iter().map(move |t| t.map(|p| p + by));
-    let ray = Ray { origin: DVec3::new(-5.0, 0.3, 0.1), direction: DVec3::X };
+    let ray = Ray::new(DVec3::new(-5.0, 0.3, 0.1), DVec3::X);
     // Along a face, along part of a face, at a corner.
     for (by, wanted) in [
         (DVec3::new(2.0, 0.0, 0.0), vec![[4.0, 8.0]]),
@@ -117,7 +117,7 @@ fn two_cubes_that_touch_are_one_solid() {
 fn solids_that_overlap_unite_and_what_faces_inwards_is_a_hole() {
     let at = |center: DVec3, half: f64| cube().into_iter().map(move |t| t.map(|p| center + p * half));
     let turned = |t: Triangle| [t[0], t[2], t[1]];
-    let ray = Ray { origin: DVec3::new(-5.0, 0.03, 0.1), direction: DVec3::X };
+    let ray = Ray { origin: DVec3::new(-5.0, 0.03, 0.1), direction: DVec3::X, ..Ray::default() };
     let small = || at(DVec3::new(0.1, 0.0, 0.0), 0.5);
     let beside = || at(DVec3::new(1.0, 0.2, 0.1), 1.0);
     let all = |own: Vec<Triangle>| cube().into_iter().chain(own).collect::<Vec<_>>();
