@@ -36,6 +36,7 @@ const LITTLE: Needs = Needs {
     large: false,
     channels: 0,
     screen: false,
+    in_planes: false,
 };
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const TWO_WORDS_OF_LAYERS: Needs = Needs { layers: true, ..TWO_WORDS };
@@ -64,6 +65,7 @@ const MOST: Needs = Needs {
     large: true,
     channels: 3,
     screen: true,
+    in_planes: true,
 };
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 21;

@@ -53,7 +53,10 @@ fn lenses() {
     assert_eq!(shell.rotation, Rotation::Quaternion([0.0, 0.0, 0.0, 2.0]));
     assert_eq!(shell.scale, [2.0; 3]);
     let tint = Filter::Tint { color: Color::rgb(0x3f, 0xa7, 0xff), amount: 0.4 };
-    assert_eq!(shell.filters[0].value, Filter::Wireframe { width: 1.0, color: None, fill: 0.0, hidden: true });
+    assert_eq!(
+        shell.filters[0].value,
+        Filter::Wireframe { width: 1.0, color: None, fill: 0.0, hidden: true, edges: WireEdges::All }
+    );
     assert_eq!(shell.filters[1].value, tint);
     let Shape::Box { center, size, .. } = probe.shape.value else { panic!("a box") };
     assert_eq!((center, size), ([0.5, 1.0, 1.5], [1.0, 2.0, 3.0]));

@@ -55,9 +55,8 @@ fn cap_direction(normal: vec3f, variant: u32) -> vec3f {
     return across * (0.70710678 * CAP_LINES * select(1.0, 1.5, (variant & 2u) != 0u));
 }
 
-// How many lines a pixel spans on the plane through `position` with `normal`.
-fn cap_span(ray: PixelRay, position: vec3f, normal: vec3f, direction: vec3f) -> f32 {
-    let steps = steps_at(ray, position, normal);
+// How many lines a pixel spans whose steps lead so far.
+fn cap_span(steps: PlaneSteps, direction: vec3f) -> f32 {
     return abs(dot(steps.right, direction)) + abs(dot(steps.down, direction));
 }
 

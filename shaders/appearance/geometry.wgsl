@@ -68,9 +68,22 @@ fn edge_function(offset: vec3f, direction: vec3f, along: vec3f) -> f32 {
     return dot(cross(offset, along), direction);
 }
 
-// Distance in pixels to the nearest edge of a triangle.
-fn wire_distance(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f) -> f32 {
-    return min(edge_distance(ray, a, b), min(edge_distance(ray, b, c), edge_distance(ray, c, a)));
+// Seen so much edge on, by its sine, a triangle is not seen.
+const EDGE_ON: f32 = 1e-4;
+
+// Whether the picture shows the triangle across the edge from `a` to `b`, whose other corner is `d`, beyond the edge, and not
+// behind or in front of the triangle with the corner `c`.
+fn goes_on_across(ray: PixelRay, a: vec3f, b: vec3f, c: vec3f, d: vec3f) -> bool {
+    // The plane of the edge and the eye, which is where all rays of a perspective camera meet.
+    var toward = ray.direction;
+    let spread = dot(ray.direction_dx, ray.direction_dx);
+    if spread > 0.0 {
+        toward = a - (ray.origin - ray.direction * (dot(ray.origin_dx, ray.direction_dx) / spread));
+    }
+    let normal = cross(toward, b - a);
+    let own = dot(normal, c - a);
+    let other = dot(normal, d - a) * select(1.0, -1.0, own > 0.0);
+    return other > EDGE_ON * length(normal) * length(d - a);
 }
 
 // Distance in pixels to the nearest corner of a triangle.

@@ -1,9 +1,13 @@
 // Draws lines of equal height, every `spacing` scene units from 0 on, `width` pixels wide however far they are. `quantity`
 // may also be `depth`, `curvature`, or a vertex attribute of the file such as `_TEMPERATURE`; the spacing is in its units.
 // Lines lie on the surface, unlit, in `color`; between them it stays as it is. Where lines come closer than three of their
-// widths they fade, so that steep faces do not turn black.
+// widths they fade, so that steep faces do not turn black. What is flat and lies at a line's height, a sea or a floor, is no
+// line.
 
 fn contours_surface(op: Op, before: Surface, reading: Reading) -> Surface {
+    if reading.change <= 0.0 {
+        return before;
+    }
     let spacing = op.b.z;
     // Values are counted from where it costs no digits; `b.x` brings them back to a whole number of spacings.
     let turns = (reading.value + op.b.x) / spacing;

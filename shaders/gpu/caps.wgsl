@@ -58,15 +58,14 @@ fn surface_of_cap(f: Fragment, at: Meeting, ray: PixelRay) -> Surface {
     }
     // Its lines lie where it is cut.
     var position = own.position;
-    var reach = frame.texture_space.w;
     let step = step_before(f.item, maker, false);
     if MOVERS && step != 0u {
         position = step_point(step - 1u, position);
-        reach = reach * length(step_vector(step - 1u, vec3f(1.0, 0.0, 0.0)));
     }
     let direction = cap_direction(normal, cap.variant);
     let along = dot(direction, (position - frame.texture_space.xyz) * frame.texture_space.w);
-    return cap_surface(cap, own, along, cap_span(ray, own.position, normal, direction) * reach);
+    let span = steps_at_source(step, steps_at(ray, own.position, normal));
+    return cap_surface(cap, own, along, cap_span(span, direction) * frame.texture_space.w);
 }
 
 // Words before the nodes of a body's surface, and those of each of its triangles: see `cut_data::push_own`.

@@ -8,7 +8,7 @@
 // (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
 // (`QUANTITIES`), has wires that nearer surfaces hide (`HIDDEN_LINES`), or
-// some triangle is very large for how near it is (`LARGE`). `CHANNELS`: how many numbers at vertices filters
+// some triangle is very large for how near it is (`LARGE`), or lies in a plane with others (`IN_PLANES`). `CHANNELS`: how many numbers at vertices filters
 // read, at least 1.
 // Positions are relative to the view's origin, along the world's axes, and depths are counted from its anchor (see
 // `view.rs`), unless a name says otherwise.
@@ -158,6 +158,10 @@ struct Item {
     // LID_WORDS each.
     roles: u32,
     lids: u32,
+    // What of its triangles lies in planes with others, in `lens_words`, or NONE: see `coincident.wgsl`.
+    in_plane: u32,
+    // What lies across the edges of its triangles, in `numbers`, or NONE.
+    across: u32,
     masks: array<u32, 6u * WORDS>,
     // Of each channel, where its numbers start in `attributes`, or NONE, and a factor.
     channels: array<u32, 2u * CHANNELS>,

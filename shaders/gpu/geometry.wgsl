@@ -77,7 +77,12 @@ struct Meeting {
 
 fn meeting(item: u32, triangle: u32, ray: PixelRay) -> Meeting {
     let t = fetch_triangle(item, triangle);
-    return Meeting(t, surface_hit(item, triangle, ray, t));
+    var hit = surface_hit(item, triangle, ray, t);
+    let in_plane = in_plane_at(item, triangle);
+    if IN_PLANES && in_plane != NONE {
+        hit.depth = in_plane_depth(in_plane, ray, hit.depth);
+    }
+    return Meeting(t, hit);
 }
 
 // Whether depths on an item are those of its triangles' planes: corners that are far off say too little of what is near.

@@ -111,18 +111,15 @@ fn filter_read(op: Op, rank: u32, item: u32, t: Triangle, weights: vec3f, s: Sur
         return read_at_corners(op.texture, CornerUv(uv.a * scale, uv.b * scale, uv.c * scale), t, weights, ray);
     }
     var position = s.position;
-    // Movements are similarities; how much longer a shown length is at the source.
-    var reach = 1.0;
     let step = step_before(item, rank, op.inner != 0u);
     if MOVERS && step != 0u {
         position = step_point(step - 1u, position);
-        reach = length(step_vector(step - 1u, vec3f(1.0, 0.0, 0.0)));
     }
     let mapped = (position - frame.texture_space.xyz) * frame.texture_space.w;
     // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
-    let span = position_footprint(ray, s.position, s.normal);
+    let span = steps_at_source(step, steps_at(ray, s.position, s.normal));
     let texels = abs(scale) * texture_size(op.texture);
-    let footprint = max(span.x, span.y) * reach * frame.texture_space.w * max(texels.x, texels.y);
+    let footprint = max(length(span.right), length(span.down)) * frame.texture_space.w * max(texels.x, texels.y);
     return Read(op.texture, projected_uv(op.flags, mapped, s.normal) * scale, footprint);
 }
 
@@ -153,7 +150,8 @@ fn look_up(op: Op, rank: u32, f: Fragment, at: Meeting, s: Surface, ray: PixelRa
             if quantity == QUANTITY_VERTEX && (is_cap(f.triangle) || items[item].channels[2u * op_channel(op)] == NONE) {
                 return Looked(reading, false);
             }
-            let value = value_on_triangle(ray, t.a, t.b, t.c, corner_values(op, rank, item, t));
+            let values = corner_values(op, rank, item, t);
+            let value = value_on_triangle(ray, t.a, t.b, t.c, values, size_of_values(op, t, values));
             reading.value = value.x;
             reading.change = value.y;
         }
@@ -184,6 +182,15 @@ fn corner_values(op: Op, rank: u32, item: u32, t: Triangle) -> vec3f {
         return frame.forward.xyz * corners;
     }
     return vec3f(corners[0].y, corners[1].y, corners[2].y);
+}
+
+// Of the numbers that values at corners come from: for positions those of the corners, and of where the item stands.
+fn size_of_values(op: Op, t: Triangle, values: vec3f) -> f32 {
+    if op_quantity(op) == QUANTITY_VERTEX {
+        return largest(values);
+    }
+    let corners = max(largest(t.a), max(largest(t.b), largest(t.c)));
+    return corners + largest(vec3f(t.placement.row_x.w, t.placement.row_y.w, t.placement.row_z.w));
 }
 
 // A surface as its material has it.
@@ -335,18 +342,40 @@ fn color_stage(lit: vec3f, f: Fragment, s: Surface) -> vec3f {
     return color;
 }
 
+// The lower bits of what lies across an edge: the vertex opposite, or these. The highest: the surface turns there.
+const NO_VERTEX: u32 = 0x7fffffffu;
+
+fn spot_by_edges(nowhere: Spot, f: Fragment, t: Triangle, p: vec3f, ray: PixelRay) -> Spot {
+    var spot = nowhere;
+    let corners = array<vec3f, 3>(t.a, t.b, t.c);
+    let first = items[f.item].across + 4u * f.triangle;
+    let beyond = numbers[first + 3u];
+    for (var i = 0u; i < 3u; i += 1u) {
+        let word = numbers[first + i];
+        var across = select(ACROSS_TURNED, ACROSS_FLAT, word == (word & NO_VERTEX));
+        var opposite = vec3f(0.0);
+        if (word & NO_VERTEX) == NO_VERTEX {
+            across = ACROSS_NOTHING;
+        } else {
+            opposite = placed(t.placement, (word & NO_VERTEX) - t.placement.base_vertex);
+        }
+        let ends = array<vec3f, 2>(corners[i], corners[(i + 1u) % 3u]);
+        spot = spot_by_edge(spot, ray, ends[0], ends[1], corners[(i + 2u) % 3u], across, opposite);
+        spot = spot_by_edge_beyond(spot, ray, p, ends[0], opposite, across, beyond >> (4u * i) & 3u);
+        spot = spot_by_edge_beyond(spot, ray, p, ends[1], opposite, across, beyond >> (4u * i + 2u) & 3u);
+    }
+    return spot;
+}
+
 fn coverage_stage(full: Shaded, f: Fragment, at: Meeting, ray: PixelRay, position: vec3f, passed: Set) -> Shaded {
     let t = at.triangle;
-    var spot = Spot(0.0, 0.0, 0u);
-    if HAS_WIREFRAME {
-        spot.edge = wire_distance(ray, t.a, t.b, t.c);
-    }
-    if HAS_POINTS {
-        spot.corner = corner_distance(ray, t.a, t.b, t.c);
-    }
+    var spot = Spot(FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 0u);
     // A cap has no edges and no corners.
-    if is_cap(f.triangle) {
-        spot = Spot(FAR_AWAY, FAR_AWAY, 0u);
+    if HAS_WIREFRAME && !is_cap(f.triangle) && items[f.item].across != NONE {
+        spot = spot_by_edges(spot, f, t, position, ray);
+    }
+    if HAS_POINTS && !is_cap(f.triangle) {
+        spot.corner = corner_distance(ray, t.a, t.b, t.c);
     }
     var shaded = full;
     var place = stack_start(f.stack);

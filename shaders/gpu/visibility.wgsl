@@ -48,47 +48,97 @@ fn fused(in: Varying) -> Kept {
         return kept(vec2u(in.item + 1u, in.triangle), z_of(in, depth));
     }
     let around = set_at(tile_at(pixel), pixel, depth);
-    return keep(in, pixel, pixel_ray(pixel), depth, around);
+    let at = keep(in, Place(depth, z_of(in, depth), 0u), pixel, pixel_ray(pixel), around);
+    return kept(at.found, at.z);
+}
+
+// The same of triangles some of which lie over others in one plane.
+@fragment
+fn fused_in_planes(in: Varying) -> KeptAt {
+    let pixel = vec2u(in.position.xy);
+    let ray = pixel_ray(pixel);
+    let place = place_of(in, ray);
+    if place.depth < frame.near || place.depth > frame.far {
+        discard;
+    }
+    if !TAKEN_AWAY && !TRANSLUCENT {
+        return KeptAt(vec2u(in.item + 1u, in.triangle), place.z);
+    }
+    let around = set_at(tile_at(pixel), pixel, place.depth);
+    return keep(in, place, pixel, ray, around);
 }
 
 // `peel`: one layer at a time, its set of lenses taken from the layer.
 @fragment
 fn peel(in: Varying) -> Kept {
+    let ray = pixel_ray(vec2u(in.position.xy));
+    let depth = surface_hit(in.item, in.triangle, ray, fetch_triangle(in.item, in.triangle)).depth;
+    let at = keep_in_layer(in, Place(depth, z_of(in, depth), 0u), ray);
+    return kept(at.found, at.z);
+}
+
+@fragment
+fn peel_in_planes(in: Varying) -> KeptAt {
+    let ray = pixel_ray(vec2u(in.position.xy));
+    return keep_in_layer(in, place_of(in, ray), ray);
+}
+
+fn keep_in_layer(in: Varying, place: Place, ray: PixelRay) -> KeptAt {
     let pixel = vec2u(in.position.xy);
     let tile = tile_at(pixel);
     let count = layer_count(tile, pixel);
-    if frame.layer >= count {
-        discard;
-    }
-    let ray = pixel_ray(pixel);
-    let hit = surface_hit(in.item, in.triangle, ray, fetch_triangle(in.item, in.triangle));
-    if hit.depth < frame.near || hit.depth > frame.far {
+    if frame.layer >= count || place.depth < frame.near || place.depth > frame.far {
         discard;
     }
     if tile.part_count == 0u {
-        return keep(in, pixel, ray, hit.depth, Set());
+        return keep(in, place, pixel, ray, Set());
     }
     let at = layers_at(tile, pixel);
     let next = frame.layer + 1u;
-    if !is_begun(at, frame.layer, hit.depth) || (next < count && is_begun(at, next, hit.depth)) {
+    if !is_begun(at, frame.layer, place.depth) || (next < count && is_begun(at, next, place.depth)) {
         discard;
     }
-    return keep(in, pixel, ray, hit.depth, layer_set(at, frame.layer));
+    return keep(in, place, pixel, ray, layer_set(at, frame.layer));
 }
 
 // For `explain`: the nearest fragment behind a given one, whatever the lenses make of it.
 @fragment
-fn next_behind(in: Varying) -> @location(0) vec2u {
-    let hit = meeting(in.item, in.triangle, pixel_ray(vec2u(in.position.xy))).hit;
-    if hit.depth < frame.near || hit.depth > frame.far {
+fn next_behind(in: Varying) -> KeptAt {
+    let place = place_of(in, pixel_ray(vec2u(in.position.xy)));
+    if place.depth < frame.near || place.depth > frame.far {
         discard;
     }
     let key = triangle_number(in.item, in.triangle);
     let is_later = key > frame.after_key || (key == frame.after_key && in.item > frame.after_item);
-    if hit.depth < frame.after_depth || (hit.depth == frame.after_depth && !is_later) {
+    if place.depth < frame.after_depth || (place.depth == frame.after_depth && !is_later) {
         discard;
     }
-    return vec2u(in.item + 1u, in.triangle);
+    return KeptAt(vec2u(in.item + 1u, in.triangle), place.z);
+}
+
+// Where a fragment is, and where it is drawn.
+struct Place {
+    depth: f32,
+    z: f32,
+    // How many others of its plane are drawn before it.
+    rank: u32,
+}
+
+// Of a triangle that shares its plane with others, that of the plane.
+fn place_of(in: Varying, ray: PixelRay) -> Place {
+    let in_plane = in_plane_at(in.item, in.triangle);
+    let hit = meeting(in.item, in.triangle, ray).hit;
+    if IN_PLANES && in_plane != NONE {
+        let rank = lens_words[in_plane + 1u];
+        return Place(hit.depth, ranked(drawn_depth(hit.depth), rank), rank);
+    }
+    return Place(hit.depth, z_of(in, hit.depth), 0u);
+}
+
+// What a fragment of the scene leaves, and how near it is drawn.
+struct KeptAt {
+    @location(0) found: vec2u,
+    @builtin(frag_depth) z: f32,
 }
 
 // The drawn depth of a fragment.
@@ -100,8 +150,8 @@ fn z_of(in: Varying, depth: f32) -> f32 {
 }
 
 // What becomes of a fragment inside the given lenses: removed, listed, or kept as opaque.
-fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Kept {
-    let verdict = verdict_at(in.item, ray, tile_at(pixel), pixel, depth, inside);
+fn keep(in: Varying, place: Place, pixel: vec2u, ray: PixelRay, inside: Set) -> KeptAt {
+    let verdict = verdict_at(in.item, ray, tile_at(pixel), pixel, place.depth, inside);
     if !verdict.displayed {
         discard;
     }
@@ -109,9 +159,9 @@ fn keep(in: Varying, pixel: vec2u, ray: PixelRay, depth: f32, inside: Set) -> Ke
         append(head_of(pixel), meeting(in.item, in.triangle, ray).hit.depth, in.item, in.triangle);
         discard;
     }
-    var z = z_of(in, depth);
+    var z = place.z;
     if verdict.fills {
-        z = drawn_depth(depth + items[in.item].spread);
+        z = ranked(drawn_depth(place.depth + items[in.item].spread), place.rank);
     }
-    return kept(vec2u(in.item + 1u, in.triangle), z);
+    return KeptAt(vec2u(in.item + 1u, in.triangle), z);
 }

@@ -1,6 +1,7 @@
 //! Everything on the view rays of a block: layers, hits in order, the visible fragment, the colour.
 
 mod caps;
+mod coincident;
 mod contact;
 mod moved;
 mod removed;
@@ -147,7 +148,7 @@ impl<'a> Tracer<'a> {
             };
             bundle.trace(geometry, &self.camera, block, &range, |number, triangle, hit| {
                 let one = &mut rays[number];
-                let depth = self.depth(hit.t);
+                let depth = self.depth_of(triangle, hit, &one.ray);
                 let (near, far) = (self.plan.view.near as f32, self.plan.view.far as f32);
                 if depth < near || depth > far || self.is_culled(triangle, &one.ray) {
                     return None;
@@ -181,7 +182,11 @@ impl<'a> Tracer<'a> {
                 let is_nearer = one.opaque.is_none_or(|known| order((fragment, behind)) < order(known));
                 is_nearer.then(|| {
                     one.opaque = Some((fragment, behind));
-                    if behind > 0.0 { self.parameter(f64::from(depth + behind)) } else { hit.t }
+                    if behind > 0.0 {
+                        self.parameter(f64::from(depth + behind))
+                    } else {
+                        self.end_behind(triangle, hit.t)
+                    }
                 })
             });
         }

@@ -6,13 +6,13 @@ use std::sync::atomic::AtomicU64;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
-use super::convert::{a4, g2, g3, g4, light, v2, v3, v4};
+use super::convert::{a4, d3, g2, g3, g4, light, v2, v3, v4};
 use super::custom::Site;
 use super::texture;
 use crate::appearance as wgsl;
 use crate::pixel::{Fragment, cap_maker};
 use crate::plan::{Instance, Item, LensSet, Op, OwnSurface, Plan};
-use crate::scene::{MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
+use crate::scene::{EdgeKind, MaterialRecord, NO_TEXTURE, Primitive, Scene, TextureSlot, scene_factor};
 use crate::spec::By;
 
 /// The records of a plan in the form that the translated shaders take.
@@ -74,21 +74,24 @@ struct Corners<'a> {
     primitive: &'a Primitive,
     indices: [usize; 3],
     around: [Vec3; 3],
-    /// A piece of a cap, at whose corners the primitive has no vertices.
-    is_of_cap: bool,
+    /// From local space to around the view's origin.
+    to_origin: &'a DAffine3,
+    /// Into the item's triangles; `None`: a piece of a cap, at whose corners the primitive has no vertices.
+    triangle: Option<usize>,
 }
 
 /// Pixels to the edges and corners of what has none.
 const NOWHERE_NEAR: f32 = 1e30;
 
 impl Hit<'_, '_> {
-    /// Pixels to the nearest edge and to the nearest corner.
-    fn distances(&self) -> (f32, f32) {
-        if self.corners.is_of_cap {
-            return (NOWHERE_NEAR, NOWHERE_NEAR);
+    /// Of the numbers that values at corners come from: for positions those of the corners, and of where the item stands.
+    fn size_of_values(&self, quantity: u32, values: Vec3) -> f32 {
+        let largest = |v: Vec3| v.abs().max_element();
+        if quantity == wgsl::QUANTITY_VERTEX.0 {
+            return largest(values);
         }
-        let [a, b, c] = self.corners.around.map(v3);
-        (wgsl::wire_distance(*self.ray, a, b, c), wgsl::corner_distance(*self.ray, a, b, c))
+        let origin = self.corners.triangle.map_or(Vec3::ZERO, |_| self.corners.to_origin.translation.as_vec3());
+        self.corners.around.map(largest).into_iter().fold(0.0, f32::max) + largest(origin)
     }
 }
 
@@ -230,13 +233,45 @@ impl<'a> Shader<'a> {
             color = color.lerp(filtered, amount);
         }
         let mut shaded = wgsl::Shaded { color: v3(color), opacity, coverage: 1.0 };
-        let mut near = None;
+        let mut spot = None;
         for (rank, op, amount) in ops().filter(|(_, op, _)| wgsl::FILTERS[op.kind as usize].stages[2]) {
-            let (edge, corner) = *near.get_or_insert_with(|| hit.distances());
-            let spot = wgsl::Spot { edge, corner, hidden: u32::from(passed.contains(rank)) };
+            let spot = *spot.get_or_insert_with(|| self.spot(hit));
+            let spot = wgsl::Spot { hidden: u32::from(passed.contains(rank)), ..spot };
             shaded = wgsl::faded_shaded(shaded, wgsl::filter_coverage(*op, shaded, spot), amount);
         }
         Shaded { color: g3(shaded.color), opacity: shaded.opacity, coverage: shaded.coverage, normal }
+    }
+
+    /// Where a ray meets a triangle, from its edges and corners.
+    fn spot(&self, hit: &Hit) -> wgsl::Spot {
+        let far = NOWHERE_NEAR;
+        let mut spot = wgsl::Spot { edge: far, flat_edge: far, rim: far, corner: far, hidden: 0 };
+        let Some(triangle) = hit.corners.triangle else { return spot };
+        let around = hit.corners.around.map(v3);
+        let item = &self.plan.items[hit.instance.item];
+        let mesh = &self.scene.models[item.model].meshes[item.mesh];
+        let kind = |kind| match kind {
+            EdgeKind::Border => wgsl::ACROSS_NOTHING.0,
+            EdgeKind::Turned => wgsl::ACROSS_TURNED.0,
+            EdgeKind::Flat => wgsl::ACROSS_FLAT.0,
+        };
+        // None where no filter has asked.
+        let edges = item.across(self.scene).get(triangle);
+        for (i, (edges, across)) in
+            edges.iter().flat_map(|edges| edges.across.map(|across| (edges, across))).enumerate()
+        {
+            let [a, b, c] = [0, 1, 2].map(|step| around[(i + step) % 3]);
+            let opposite = across.opposite().and_then(|vertex| mesh.vertex(vertex)).unwrap_or_default();
+            let opposite = v3(hit.corners.to_origin.transform_point3(opposite.as_dvec3()).as_vec3());
+            spot = wgsl::spot_by_edge(spot, *hit.ray, a, b, c, kind(across.kind()), opposite);
+            for (end, beyond) in [a, b].into_iter().zip(edges.beyond(i)) {
+                let (across, beyond) = (kind(across.kind()), kind(beyond));
+                spot = wgsl::spot_by_edge_beyond(spot, *hit.ray, v3(hit.position), end, opposite, across, beyond);
+            }
+        }
+        let [a, b, c] = around;
+        spot.corner = wgsl::corner_distance(*hit.ray, a, b, c);
+        spot
     }
 
     /// Of the triangle that a fragment lies on, as shown; zero for one without area.
@@ -245,12 +280,12 @@ impl<'a> Shader<'a> {
         self.corners(item, fragment).normal()
     }
 
-    fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'a> {
+    fn corners(&self, item: &Item, fragment: &Fragment) -> Corners<'_> {
         let primitive = item.primitive_of(self.scene);
         let indices = item.triangle_list(self.scene)[fragment.triangle as usize].map(|i| i as usize);
         let to_origin = &self.transforms[fragment.instance as usize].point;
         let around = indices.map(|i| to_origin.transform_point3(primitive.positions[i].as_dvec3()).as_vec3());
-        Corners { primitive, indices, around, is_of_cap: false }
+        Corners { primitive, indices, around, to_origin, triangle: Some(fragment.triangle as usize) }
     }
 
     /// The surface as its material has it.
@@ -375,7 +410,8 @@ impl<'a> Shader<'a> {
         } else {
             let [a, b, c] = hit.corners.around.map(v3);
             let values = self.corner_values(quantity, wgsl::op_channel(*op), hit, source)?;
-            let value = wgsl::value_on_triangle(*hit.ray, a, b, c, v3(values));
+            let size = hit.size_of_values(quantity, values);
+            let value = wgsl::value_on_triangle(*hit.ray, a, b, c, v3(values), size);
             (reading.value, reading.change) = (value.x, value.y);
         }
         if op.flags & wgsl::MAPPED.0 != 0 {
@@ -388,7 +424,7 @@ impl<'a> Shader<'a> {
     /// A quantity at the corners of a triangle: a height or a depth counted from the view's origin.
     fn corner_values(&self, quantity: u32, channel: u32, hit: &Hit, source: impl Fn() -> DAffine3) -> Option<Vec3> {
         if quantity == wgsl::QUANTITY_VERTEX.0 {
-            if hit.corners.is_of_cap {
+            if hit.corners.triangle.is_none() {
                 return None;
             }
             let (values, factor) = self.values[hit.instance.item][channel as usize]?;
@@ -402,12 +438,12 @@ impl<'a> Shader<'a> {
         Some(DVec3::from_array(values).as_vec3())
     }
 
-    /// The texel of a `texture` filter; `source`: from the shown point to where the filter acts, a similarity.
+    /// The texel of a `texture` filter; `source`: from the shown point to where the filter acts.
     fn filter_texel(&self, op: &wgsl::Op, hit: &Hit, source: &DAffine3) -> Vec4 {
         let Hit { corners, weights, position, normal, ray, .. } = *hit;
         let scale = Vec2::new(op.a.x, op.a.y);
         if op.flags == wgsl::UV_MESH.0 {
-            if corners.is_of_cap {
+            if corners.triangle.is_none() {
                 return Vec4::ONE;
             }
             return self.sample(op.texture, corners.uv(0).map(|uv| uv * scale), corners, weights, ray);
@@ -417,9 +453,9 @@ impl<'a> Shader<'a> {
         let uv = g2(wgsl::projected_uv(op.flags, v3(mapped.as_vec3() * space.scale), v3(normal))) * scale;
         let size = texture::size(&self.scene.textures, op.texture);
         // The mapping may jump inside a triangle, so its footprint is taken at the hit, not from the corners.
-        let span = g2(wgsl::position_footprint(*ray, v3(position), v3(normal)));
-        let reach = source.matrix3.x_axis.length() as f32;
-        let footprint = span.max_element() * reach * space.scale * (scale.abs() * size).max_element();
+        let steps = steps_at_source(source, wgsl::steps_at(*ray, v3(position), v3(normal)));
+        let span = g3(steps.right).length().max(g3(steps.down).length());
+        let footprint = span * space.scale * (scale.abs() * size).max_element();
         texture::sample(&self.scene.textures, op.texture, uv, footprint)
     }
 
@@ -431,6 +467,12 @@ impl<'a> Shader<'a> {
         let ambient = g3(wgsl::ambient_light(surface, self.plan.lighting.ambient, v3(self.up)));
         self.lights.iter().fold(ambient, |sum, light| sum + g3(wgsl::lit_by(*light, surface)))
     }
+}
+
+/// What a pixel spans, where lenses move it from.
+fn steps_at_source(source: &DAffine3, shown: wgsl::PlaneSteps) -> wgsl::PlaneSteps {
+    let moved = |step| d3(source.transform_vector3(g3(step).as_dvec3()));
+    wgsl::PlaneSteps { right: moved(shown.right), down: moved(shown.down) }
 }
 
 /// How much the filters of a lens, or of a rule, count on a fragment shown at `position` (around the view's origin).

@@ -122,7 +122,9 @@ pub fn draws(plan: &Plan, window: &Window, uploaded: &SceneData) -> Vec<Draw> {
         let indices = range.first_index..range.first_index + 3 * item.triangles;
         let record = member.instance as u32;
         let base_vertex = range.base_vertex as i32;
-        (!rect.is_empty()).then_some(Draw { record, indices, base_vertex, culling: Culling::None, rect, plain: false })
+        let culling = Culling::None;
+        let draw = Draw { record, indices, base_vertex, culling, rect, plain: false, in_planes: false };
+        (!draw.rect.is_empty()).then_some(draw)
     };
     members(plan).filter_map(draw).collect()
 }

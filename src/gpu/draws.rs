@@ -32,6 +32,8 @@ pub struct Draw {
     pub rect: PixelRect,
     /// All of it is there and opaque, between near and far: it needs no fragment logic.
     pub plain: bool,
+    /// Some of its triangles lie over others in one plane.
+    pub in_planes: bool,
 }
 
 pub fn shown_from_local(scene: &Scene, item: &Item, instance: &Instance) -> DAffine3 {
@@ -78,10 +80,11 @@ pub fn draws(
         let instance = &plan.instances[number];
         let item = &plan.items[instance.item];
         let (range, clusters) = uploaded.primitive(item);
+        let in_planes = clusters_in_planes(plan, instance.item, clusters, uploaded.order(item));
         let shown_from_local = shown_from_local(scene, item, instance);
         let altering = plan.altering(item);
         let showing = lenses.showing(item);
-        for cluster in clusters {
+        for (cluster, in_planes) in clusters.iter().zip(in_planes) {
             let bounds = shown_bounds(instance, &shown_from_local, cluster, clusters.len());
             let rect = window.local(&lenses.seen_rect(instance, showing, &bounds));
             if bounds.is_empty() || rect.is_empty() {
@@ -98,7 +101,8 @@ pub fn draws(
                 base_vertex: range.base_vertex as i32,
                 culling: culling(scene, plan, item),
                 rect,
-                plain: fate == Fate::Plain && !large[number],
+                plain: fate == Fate::Plain && !in_planes && !large[number],
+                in_planes,
             };
             match draws.last_mut() {
                 Some(last) if last.goes_on(&draw) => {
@@ -108,11 +112,22 @@ pub fn draws(
                 _ => draws.push(draw),
             }
         }
-        // Two pipelines an instance rather than two a run. Triangles that lie on each other stand in one cluster, so that
-        // this decides no tie between them; between others in one plane rounding does.
-        draws[first_draw..].sort_by_key(|draw| !draw.plain);
+        // A few pipelines an instance rather than as many as runs. What lies over each other in one plane does not depend on
+        // what is drawn first.
+        draws[first_draw..].sort_by_key(|draw| (!draw.plain, draw.in_planes));
     }
     draws
+}
+
+/// Which clusters of an item have triangles that lie over others in one plane. `order`: the number of each drawn triangle.
+fn clusters_in_planes(plan: &Plan, item: usize, clusters: &[Cluster], order: &[u32]) -> Vec<bool> {
+    if plan.coincident.parts[item].is_empty() {
+        return vec![false; clusters.len()];
+    }
+    let mut is_in_plane = vec![false; order.len()];
+    plan.coincident.parts[item].iter().for_each(|own| is_in_plane[own.triangle as usize] = true);
+    let own = |cluster: &Cluster| &order[cluster.first as usize..(cluster.first + cluster.count) as usize];
+    clusters.iter().map(|cluster| own(cluster).iter().any(|number| is_in_plane[*number as usize])).collect()
 }
 
 /// World bounds of a cluster of an instance; of a moved one only what may be seen there.
@@ -127,7 +142,8 @@ fn shown_bounds(instance: &Instance, shown_from_local: &DAffine3, cluster: &Clus
 impl Draw {
     /// Whether another draw only goes on with this one's triangles.
     fn goes_on(&self, next: &Draw) -> bool {
-        self.record == next.record && self.plain == next.plain && self.indices.end == next.indices.start
+        let is_alike = self.plain == next.plain && self.in_planes == next.in_planes;
+        self.record == next.record && is_alike && self.indices.end == next.indices.start
     }
 }
 

@@ -10,6 +10,7 @@ mod bindings;
 mod caps;
 mod cells;
 mod clusters;
+mod coincident_data;
 mod cost;
 mod cut_data;
 mod draws;

@@ -64,6 +64,8 @@ pub struct Needs {
     pub channels: u32,
     /// Some filter works on the finished picture.
     pub screen: bool,
+    /// Some triangles lie over others in one plane.
+    pub in_planes: bool,
 }
 
 impl Needs {
@@ -105,6 +107,7 @@ impl Needs {
             large: large.contains(&true),
             channels: plan.channels.len() as u32,
             screen: !plan.screen.is_empty(),
+            in_planes: !plan.coincident.is_empty(),
         }
     }
 
@@ -168,6 +171,7 @@ impl Needs {
             caps: false,
             soft: false,
             translucent: false,
+            in_planes: false,
             ..self.without_shading()
         };
         if !self.soft {
@@ -225,6 +229,7 @@ impl Needs {
             ("HIDDEN_LINES", self.hidden_lines),
             ("LARGE", self.large),
             ("SCREEN", self.screen),
+            ("IN_PLANES", self.in_planes),
         ];
         let filters = FILTERS.iter().enumerate().map(|(number, filter)| {
             let (name, has) = (filter.name.to_uppercase(), self.filters >> number & 1 != 0);

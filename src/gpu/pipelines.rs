@@ -22,6 +22,9 @@ pub enum Program {
     Plain,
     Fused,
     Peel,
+    /// Likewise, with triangles that lie over others in one plane.
+    FusedInPlanes,
+    PeelInPlanes,
     /// For accounts of one pixel, fragment after fragment.
     NextBehind,
 }
@@ -32,6 +35,8 @@ impl Program {
             Program::Plain => "plain",
             Program::Fused => "fused",
             Program::Peel => "peel",
+            Program::FusedInPlanes => "fused_in_planes",
+            Program::PeelInPlanes => "peel_in_planes",
             Program::NextBehind => "next_behind",
         }
     }

@@ -127,6 +127,10 @@ pub struct ItemRecord {
     pub group: u32,
     pub roles: u32,
     pub lids: u32,
+    /// Among the words of lenses, or `u32::MAX`: what of its triangles lies in planes with others.
+    pub in_plane: u32,
+    /// Where what lies across the edges of its triangles starts, or `u32::MAX`.
+    pub across: u32,
 }
 
 /// A lens that moves content, on the way down from a shown point.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::bindings;
+use super::coincident_data;
 use super::cut_data;
 use super::draws::{self, Draw, Skip};
 use super::frame::{self, FrameShape, Place, Sample};
@@ -221,11 +222,12 @@ impl Renderer {
             .transpose()?;
         let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
         let cuts = cut_data::push_cuts(scene, plan, &self.scene, &mut lenses.parts.words);
+        let in_planes = coincident_data::push_in_planes(plan, &mut lenses.parts.words);
         let planes = planes::push(scene, plan, &large, &mut lenses.parts.vectors);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
-            items: &ItemData::new(scene, plan, &self.scene, words, &cuts, &planes),
+            items: &ItemData::new(scene, plan, &self.scene, words, &cuts, &planes, &in_planes),
             lenses: &lenses,
             tiles: &tiles.words,
         }
@@ -387,7 +389,9 @@ fn program_of(engine: Engine, next_behind: bool) -> impl Fn(&Draw) -> Program {
     move |draw| match engine {
         _ if next_behind => Program::NextBehind,
         Engine::Fused if draw.plain => Program::Plain,
+        Engine::Fused if draw.in_planes => Program::FusedInPlanes,
         Engine::Fused => Program::Fused,
+        Engine::Peel if draw.in_planes => Program::PeelInPlanes,
         Engine::Peel => Program::Peel,
     }
 }

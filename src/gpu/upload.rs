@@ -10,7 +10,7 @@ use super::provoking::Provoking;
 use super::records::NONE;
 use super::{Error, alloc, bindings};
 use crate::plan::Item;
-use crate::scene::{Primitive, Scene, SceneId};
+use crate::scene::{Mesh, Primitive, Scene, SceneId};
 
 /// Where a primitive lies in the shared buffers.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,8 @@ pub struct Range {
     pub tangents: u32,
     pub colors: u32,
     pub uv: [u32; 2],
+    /// Where what lies across the edges of its triangles starts, among the numbers, or [`NONE`].
+    pub across: u32,
     /// Of other numbers at vertices, by name.
     pub values: BTreeMap<String, u32>,
 }
@@ -40,6 +42,10 @@ fn middle(points: &[Vec3]) -> Vec3 {
 
 /// Model, mesh, primitive, and the bits of the ratio of its version.
 type Place = (usize, usize, usize, u32);
+
+/// In a word of what lies across an edge: no triangle, and that the surface turns there. Twins of `shade.wgsl`.
+const NO_VERTEX: u32 = FEATURE - 1;
+const FEATURE: u32 = 1 << 31;
 
 /// Everything of a scene that no plan changes.
 #[derive(Debug)]
@@ -64,19 +70,52 @@ struct Lists {
 }
 
 impl Lists {
-    /// `wanted`: the names of the numbers at vertices that filters read.
+    /// What lies across the edges of a primitive's triangles, in the order in which they are drawn. `copies`: where a copy of
+    /// each of its vertices stands; those of other primitives are appended, around `middle` like its own.
+    fn across(&mut self, mesh: &Mesh, number: usize, ratio: f32, drawn: &[u32], copies: &[u32], middle: Vec3) -> u32 {
+        let across = mesh.primitives[number].across_of(ratio);
+        if across.is_empty() {
+            return NONE;
+        }
+        let first: usize = mesh.primitives[..number].iter().map(|other| other.positions.len()).sum();
+        let start = self.numbers.len() as u32;
+        let mut others: HashMap<u32, u32> = HashMap::new();
+        for number in drawn {
+            let edges = &across[*number as usize];
+            for across in &edges.across {
+                let place = across.opposite().map(|vertex| {
+                    let own = (vertex as usize).checked_sub(first).and_then(|own| copies.get(own));
+                    own.copied().unwrap_or_else(|| {
+                        *others.entry(vertex).or_insert_with(|| {
+                            let p = mesh.vertex(vertex).unwrap_or_default() - middle;
+                            self.positions.extend(p.to_array());
+                            (self.positions.len() / 3 - 1) as u32
+                        })
+                    })
+                });
+                let feature = if across.is_feature() { FEATURE } else { 0 };
+                self.numbers.push(place.map_or(NO_VERTEX, |place| place.min(NO_VERTEX)) | feature);
+            }
+            self.numbers.push(edges.beyond_word());
+        }
+        start
+    }
+
+    /// Adds a version of a mesh's primitive. `wanted`: the names of the numbers at vertices that filters read.
     fn add(
         &mut self,
-        primitive: &Primitive,
-        triangles: &[[u32; 3]],
+        mesh: &Mesh,
+        number: usize,
+        (ratio, triangles): (f32, &[[u32; 3]]),
         wanted: &BTreeMap<String, [f32; 2]>,
     ) -> (Range, Vec<Cluster>) {
+        let primitive = &mesh.primitives[number];
         let Clustered { order: numbers, clusters } = Clustered::new(&primitive.positions, triangles);
         let triangles: Vec<[u32; 3]> = numbers.iter().map(|number| triangles[*number as usize]).collect();
         let order = Provoking::new(primitive.positions.len(), &triangles);
         let middle = middle(&primitive.positions);
         let around: Vec<Vec3> = primitive.positions.iter().map(|p| *p - middle).collect();
-        let range = Range {
+        let mut range = Range {
             middle,
             first_index: self.indices.len() as u32,
             first_number: self.numbers.len() as u32,
@@ -85,11 +124,15 @@ impl Lists {
             tangents: self.attribute(&order, primitive.tangents.as_deref()),
             colors: self.attribute(&order, primitive.colors.as_deref()),
             uv: [0, 1].map(|set| self.attribute(&order, primitive.uv[set].as_deref())),
+            across: NONE,
             values: self.values(&order, primitive, wanted),
         };
         self.positions.extend_from_slice(bytemuck::cast_slice(&order.copied(&around)));
         self.indices.extend_from_slice(bytemuck::cast_slice(&order.triangles));
-        self.numbers.extend(numbers);
+        self.numbers.extend_from_slice(&numbers);
+        let mut copies = vec![NONE; primitive.positions.len()];
+        (range.base_vertex..).zip(&order.sources).for_each(|(copy, source)| copies[*source as usize] = copy);
+        range.across = self.across(mesh, number, ratio, &numbers, &copies, middle);
         (range, clusters)
     }
 
@@ -123,9 +166,9 @@ impl SceneData {
         for (m, model) in scene.models.iter().enumerate() {
             for (i, mesh) in model.meshes.iter().enumerate() {
                 for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    for (ratio, triangles) in primitive.versions() {
-                        let added = lists.add(primitive, triangles, &scene.value_ranges);
-                        primitives.insert((m, i, p, ratio.to_bits()), added);
+                    for version in primitive.versions() {
+                        let added = lists.add(mesh, p, version, &scene.value_ranges);
+                        primitives.insert((m, i, p, version.0.to_bits()), added);
                     }
                 }
             }
@@ -161,10 +204,8 @@ impl SceneData {
 
     /// Of each triangle of an item's version of its primitive, its place in the order in which they are drawn.
     pub fn drawn_places(&self, item: &Item) -> Vec<u32> {
-        let first = self.primitive(item).0.first_number as usize;
         let mut places = vec![0; item.triangles as usize];
-        let numbers = &self.numbers[first..first + places.len()];
-        (0u32..).zip(numbers).for_each(|(place, number)| places[*number as usize] = place);
+        (0u32..).zip(self.order(item)).for_each(|(place, number)| places[*number as usize] = place);
         places
     }
 
@@ -172,6 +213,12 @@ impl SceneData {
     pub fn primitive(&self, item: &Item) -> (&Range, &[Cluster]) {
         let (range, clusters) = &self.primitives[&(item.model, item.mesh, item.primitive, item.ratio.to_bits())];
         (range, clusters)
+    }
+
+    /// The number in its primitive of each of an item's drawn triangles.
+    pub fn order(&self, item: &Item) -> &[u32] {
+        let first = self.primitive(item).0.first_number as usize;
+        &self.numbers[first..first + item.triangles as usize]
     }
 }
 

@@ -204,7 +204,7 @@ impl Content {
             let (Some(placed), lens) = (&volumes[*index], &spec.lenses[*index]) else { continue };
             let is_bounded = lens.by == By::Pixel && placed.volume.bounds().size().is_finite();
             for filter in &lens.filters {
-                if let Some(reach) = instances::reach(&filter.value, placed, &seen) {
+                if let Some(reach) = instances::reach(&filter.value, placed, &seen, view) {
                     points.extend(if is_bounded { placed.volume.bounds().corners() } else { reach.corners() });
                     if !is_bounded {
                         seen = seen.union(reach);

@@ -5,14 +5,16 @@
 //! seen of the item are its images under the compositions of some of them: one instance each. Where an instance is
 //! really seen the walk decides.
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::items::largest_scale;
 use super::lenses::Placed;
 use super::{Item, Lens, LensSet};
 use crate::InputError;
+use crate::lens::Volume;
 use crate::scene::{Aabb, Scene, Selections, Subject};
 use crate::spec::{At, By, Filter, Pattern};
+use crate::view::View;
 
 /// The most ways in which one item may be shown.
 const MOST_WAYS: usize = 256;
@@ -101,7 +103,12 @@ fn padded(bounds: Aabb) -> Aabb {
 }
 
 /// Every item in place, in their order, then all that movers may show of them.
-pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<Vec<Instance>, InputError> {
+pub(super) fn collect(
+    items: &[Item],
+    lenses: &[Lens],
+    scene: &Scene,
+    view: &View,
+) -> Result<Vec<Instance>, InputError> {
     let mut instances: Vec<Instance> =
         items.iter().enumerate().map(|(index, item)| Instance::in_place(index, item, item.bounds)).collect();
     let movers: LensSet = (0..lenses.len()).filter(|rank| lenses[*rank].moves).collect();
@@ -117,7 +124,7 @@ pub(super) fn collect(items: &[Item], lenses: &[Lens], scene: &Scene) -> Result<
         let subject = item.subject(scene, &known);
         let mut ways = vec![Instance::in_place(index, item, moved_bounds(item, scene))];
         for rank in item.moved_by(lenses).iter() {
-            let movement = movement(&lenses[rank], item, &subject);
+            let movement = movement(&lenses[rank], item, &subject, view);
             let above = ways.iter().filter_map(|way| way.through(rank, &movement, &reaches[rank]));
             let above: Vec<Instance> = above.collect();
             ways.extend(above);
@@ -146,9 +153,9 @@ fn too_many(lenses: &[Lens], movers: LensSet, ways: bool) -> InputError {
 }
 
 /// How a lens moves an item: from world k-1 to world k. What the lens shows is moved by the filters after `show`.
-fn movement<'a>(lens: &'a Lens, item: &Item, subject: &Subject<'a>) -> DAffine3 {
+fn movement<'a>(lens: &'a Lens, item: &Item, subject: &Subject<'a>, view: &View) -> DAffine3 {
     let filters = moving_filters(&lens.filters);
-    filters.iter().fold(DAffine3::IDENTITY, |before, filter| movement_of(filter, lens, item, subject) * before)
+    filters.iter().fold(DAffine3::IDENTITY, |before, filter| movement_of(filter, lens, item, subject, view) * before)
 }
 
 fn moving_filters(filters: &[Filter]) -> &[Filter] {
@@ -169,11 +176,11 @@ fn displaces<'a>(nodes: &'a [At<Pattern>], subject: &Subject<'a>) -> bool {
     nodes.is_empty() || subject.is_any(nodes, &[])
 }
 
-fn movement_of<'a>(filter: &'a Filter, lens: &Lens, item: &Item, subject: &Subject<'a>) -> DAffine3 {
+fn movement_of<'a>(filter: &'a Filter, lens: &Lens, item: &Item, subject: &Subject<'a>, view: &View) -> DAffine3 {
     match filter {
         Filter::Magnify { factor, center } => {
-            let center = center.map_or(lens.volume.center, |c| lens.world_from_shape.transform_point3(c.into()));
-            magnified(*factor, center)
+            let center = center.map(|center| lens.world_from_shape.transform_point3(center.into()));
+            magnified(*factor, center, &lens.volume, view)
         }
         Filter::Displace { nodes, offset, explode } if displaces(nodes, subject) => {
             let away = item.center - lens.volume.center;
@@ -183,19 +190,42 @@ fn movement_of<'a>(filter: &'a Filter, lens: &Lens, item: &Item, subject: &Subje
     }
 }
 
-/// Enlarges about a point.
-fn magnified(factor: f64, center: DVec3) -> DAffine3 {
+/// Enlarges about a point: that given, or the volume's centre; of a flat volume without one what is seen, about its centre.
+fn magnified(factor: f64, center: Option<DVec3>, volume: &Volume, view: &View) -> DAffine3 {
+    if center.is_none() && volume.is_flat() {
+        return magnified_in_sight(factor, volume.center, view);
+    }
+    let center = center.unwrap_or(volume.center);
     DAffine3::from_scale_rotation_translation(DVec3::splat(factor), DQuat::IDENTITY, center * (1.0 - factor))
 }
 
+/// A center so near to the eye's plane, for its distance, has no line of sight.
+const BESIDE_THE_EYE: f64 = 1e-9;
+
+/// Enlarges about the line from the eye through a center, for an orthographic camera along the view; depths stay.
+fn magnified_in_sight(factor: f64, center: DVec3, view: &View) -> DAffine3 {
+    let (fixed, mut along) = (if view.is_perspective() { view.eye } else { center }, view.forward);
+    if view.is_perspective() {
+        let away = center - view.eye;
+        let depth = away.dot(view.forward);
+        if depth.abs() > BESIDE_THE_EYE * away.length() {
+            along = away / depth;
+        }
+    }
+    // All that is away from the line at one depth grows: v becomes f v + (1 - f) (forward·v) along.
+    let kept = |axis: DVec3| factor * axis + (1.0 - factor) * view.forward.dot(axis) * along;
+    let matrix = DMat3::from_cols(kept(DVec3::X), kept(DVec3::Y), kept(DVec3::Z));
+    DAffine3::from_mat3_translation(matrix, fixed - matrix * fixed)
+}
+
 /// World bounds of all that a filter may make of what lies in `seen`; `None` where it moves nothing.
-pub(super) fn reach(filter: &Filter, placed: &Placed, seen: &Aabb) -> Option<Aabb> {
+pub(super) fn reach(filter: &Filter, placed: &Placed, seen: &Aabb, view: &View) -> Option<Aabb> {
     let centre = placed.volume.center;
     let box_of = |map: DAffine3| Aabb::from_points(seen.corners().map(|p| map.transform_point3(p)));
     match filter {
         Filter::Magnify { factor, center } => {
-            let center = center.map_or(centre, |c| placed.world_from_shape.transform_point3(c.into()));
-            Some(box_of(magnified(*factor, center)))
+            let center = center.map(|center| placed.world_from_shape.transform_point3(center.into()));
+            Some(box_of(magnified(*factor, center, &placed.volume, view)))
         }
         Filter::Displace { offset, explode, .. } => {
             // The centre of a node may be anywhere in the box.

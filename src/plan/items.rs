@@ -1,12 +1,14 @@
 //! What can be drawn, and what each lens means to it.
 
 use super::{Lens, LensSet, Rule, instances};
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec3};
 
 use crate::InputError;
 use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
-use crate::scene::{Aabb, Model, Primitive, Scene, Selections, Subject};
+use crate::scene::{Aabb, Coincident, Edges, Model, Part, Primitive, Scene, Selections, Subject};
 use crate::spec::{At, By, Cap, Filter, Pattern, PatternSet, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
@@ -94,6 +96,11 @@ impl Item {
     /// Corners of its triangles: vertices of its primitive.
     pub fn triangle_list<'a>(&self, scene: &'a Scene) -> &'a [[u32; 3]] {
         self.primitive_of(scene).version(self.ratio).unwrap_or_default()
+    }
+
+    /// What lies across the edges of its triangles; empty where no filter has asked for it.
+    pub fn across<'a>(&self, scene: &'a Scene) -> &'a [Edges] {
+        self.primitive_of(scene).across_of(self.ratio)
     }
 
     pub fn primitive_of<'a>(&self, scene: &'a Scene) -> &'a Primitive {
@@ -206,6 +213,18 @@ pub(super) fn collect(
 
 /// Of a meshoptimizer error, which is less than how far apart surfaces may lie on a slanting ray.
 const SPREAD: f64 = 8.0;
+
+/// The triangles of items that coincide with others; looked for once for one pose.
+pub(super) fn coincident(items: &[Item], scene: &Scene) -> Arc<Coincident> {
+    let part = |item: &Item| Part {
+        place: [item.model, item.node, item.primitive],
+        world_from_local: scene.models[item.model].nodes[item.node].world_from_local,
+        positions: &item.primitive_of(scene).positions,
+        triangles: item.triangle_list(scene),
+        first_triangle: item.first_triangle,
+    };
+    scene.coincident_cache.get(&items.iter().map(part).collect::<Vec<_>>())
+}
 
 /// An item, and the simplified versions of it that lenses and rules may show, the finest first.
 fn versions(item: Item, lenses: &[Lens], rules: &[Rule], scene: &Scene) -> Result<Vec<Item>, InputError> {

@@ -26,7 +26,7 @@ use std::sync::Arc;
 use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::Custom;
-use crate::scene::{Scene, SceneId};
+use crate::scene::{Coincident, Scene, SceneId};
 use crate::spec::{Backfaces, Spec, ToneMapping};
 use crate::view::View;
 
@@ -88,6 +88,8 @@ pub struct Plan {
     pub items: Vec<Item>,
     /// Every way in which an item may be seen: all items in place, in their order, then those that lenses move.
     pub instances: Vec<Instance>,
+    /// The triangles of each item that lie over others in one plane, in place.
+    pub coincident: Arc<Coincident>,
     /// The nodes that erasers with `cap` may cut. Where several have a cap at one boundary, the first of them here has it.
     pub bodies: Vec<Body>,
     /// The middle and the longest side of the scene's bounds, for projected textures.
@@ -126,7 +128,7 @@ impl Plan {
         warnings.extend(graph.idle_cycles(spec));
         warnings.extend(caps::check(spec, scene, &lenses, &mut items));
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
-        let instances = instances::collect(&items, &lenses, scene)?;
+        let instances = instances::collect(&items, &lenses, scene, &view)?;
         warnings.extend(warnings::of_reach(spec, &lenses, &items, &instances));
         Ok(Self {
             scene: scene.id,
@@ -143,6 +145,7 @@ impl Plan {
             view,
             bodies: caps::bodies(scene, &items, &instances),
             screen: screen::steps(&lenses, &rules, &ops),
+            coincident: items::coincident(&items, scene),
             lenses,
             rules,
             ops,

@@ -7,7 +7,7 @@ use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::{Custom, Given};
 use crate::scene::{Aabb, CURVATURE, Scene};
-use crate::spec::{At, Color, Filter, Quantity, Spec, UvMapping};
+use crate::spec::{At, Color, Filter, Quantity, Spec, UvMapping, WireEdges};
 use crate::view::View;
 
 /// One appearance filter with its parameters; the layout of WGSL's `Op`.
@@ -195,9 +195,10 @@ impl<'a> Ops<'a> {
             Filter::Hatch { spacing, width, color } => {
                 Op::new(wgsl::OP_HATCH, color.to_linear(), [*spacing, *width, 0.0, 0.0])
             }
-            Filter::Wireframe { width, color, fill, hidden } => {
-                let lines = Op::new(wgsl::OP_WIREFRAME, NONE, [*width, *fill, 0.0, 0.0]);
-                lines.colored(*color).flagged(wgsl::HIDES_LINES.0, !hidden)
+            Filter::Wireframe { width, color, fill, hidden, edges } => {
+                prepared(self.scene.has_edges.then_some(()), || "the edges of triangles".to_owned())?;
+                let lines = Op::new(wgsl::OP_WIREFRAME, NONE, [*width, *fill, 0.0, 0.0]).colored(*color);
+                lines.flagged(wgsl::HIDES_LINES.0, !hidden).flagged(wgsl::FEATURE_EDGES.0, *edges == WireEdges::Feature)
             }
             Filter::Edges { color, width, threshold } => {
                 Op::new(wgsl::OP_EDGES, color.to_linear(), [*width, *threshold, 0.0, 0.0])

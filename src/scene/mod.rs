@@ -2,10 +2,12 @@
 //!
 //! Bytes in, validated scene out: every index is in range, every number finite, every tree a tree.
 
+mod across;
 mod animation;
 mod bounds;
 mod budget;
 mod closed;
+mod coincident;
 mod files;
 mod lens_meshes;
 mod load;
@@ -18,11 +20,13 @@ mod simplified;
 mod textures;
 mod vertex_values;
 
+pub use across::{Across, EdgeKind, Edges};
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
 pub(crate) use budget::TO_TAKE_LESS;
 pub use budget::{Budget, OpenOptions};
 pub use closed::{Closure, ClosureCache, Enclosing};
+pub use coincident::{Coincident, CoincidentCache, Part, Plane, Shared};
 pub(crate) use files::files;
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DVec3, Vec2, Vec3, Vec4};
 
-use super::{Animation, BoundsCache, ClosureCache, Simplified, Transform};
+use super::{Animation, BoundsCache, ClosureCache, Edges, Simplified, Transform};
 
 /// One glTF file, with one of its scenes chosen. Indices are those of the file.
 #[derive(Debug, Clone, Default)]
@@ -78,6 +78,8 @@ pub struct Primitive {
     pub triangles: Vec<[u32; 3]>,
     /// Those that some `lod` has asked for, one a ratio.
     pub simplified: Vec<Simplified>,
+    /// What lies across the edges of each triangle, where a filter has asked for it; else empty.
+    pub across: Vec<Edges>,
     /// Into [`Model::materials`].
     pub material: usize,
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::vertex_values::{CURVATURE, add_curvature, fitted_range};
-use super::{Budget, MaterialRecord, Model, OpenOptions, TextureSet, lens_meshes};
+use super::{Budget, CoincidentCache, MaterialRecord, Model, OpenOptions, TextureSet, lens_meshes};
 use crate::custom::Custom;
 use crate::lens::LensMeshes;
 use crate::spec::{At, Filter, Quantity, Spec, suggest};
@@ -45,6 +45,10 @@ pub struct Scene {
     pub custom_filters: BTreeMap<PathBuf, Arc<Custom>>,
     /// The fitted range of each vertex value that a filter shows.
     pub value_ranges: BTreeMap<String, [f32; 2]>,
+    /// To be replaced with an empty one where a mesh is changed in place.
+    pub coincident_cache: CoincidentCache,
+    /// What lies across the edges of triangles has been found.
+    pub has_edges: bool,
     /// The solids of `mesh` shapes.
     pub lens_meshes: LensMeshes,
     /// Of memory: what is taken, and what there may be.
@@ -125,6 +129,7 @@ impl Scene {
                     self.add_values(quantity, spec)?;
                 }
                 Filter::Contours { quantity, .. } => self.add_values(quantity, spec)?,
+                Filter::Wireframe { .. } => self.has_edges = true,
                 Filter::Wgsl { file, .. } => {
                     self.add_custom(&file.value).map_err(|e| e.or_at(&spec.source, file.span.clone()))?;
                 }
@@ -132,6 +137,9 @@ impl Scene {
             }
         }
         self.simplify(spec);
+        if self.has_edges {
+            self.models.iter_mut().for_each(Model::add_across);
+        }
         Ok(())
     }
 

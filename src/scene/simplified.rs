@@ -6,7 +6,7 @@ use meshopt::{SimplifyOptions, simplify_decoder, simplify_scale_decoder};
 use rayon::prelude::*;
 
 use super::vertex_values::places;
-use super::{Model, Primitive, Scene, Selections, Subject};
+use super::{Edges, Model, Primitive, Scene, Selections, Subject};
 use crate::spec::{At, Filter, LensSpec, Spec, lod};
 
 /// A primitive with fewer triangles.
@@ -18,6 +18,8 @@ pub struct Simplified {
     pub triangles: Vec<[u32; 3]>,
     /// How far its surface is from the primitive's, about, in the primitive's own units.
     pub error: f32,
+    /// As of [`Primitive::across`].
+    pub across: Vec<Edges>,
 }
 
 /// So much more than what was asked for may be left before edges where vertices part (in normals, in texture coordinates)
@@ -44,7 +46,7 @@ impl Simplified {
         }
         let mut triangles = left.as_chunks().0.to_vec();
         fit_normals(primitive, &mut triangles);
-        Self { ratio, triangles, error: error * simplify_scale_decoder(&positions) }
+        Self { ratio, triangles, error: error * simplify_scale_decoder(&positions), across: Vec::new() }
     }
 }
 
@@ -76,6 +78,12 @@ impl Primitive {
     /// The triangles of a version of it; `None` where that has not been made. A ratio of 1 is all of it.
     pub fn version(&self, ratio: f32) -> Option<&[[u32; 3]]> {
         self.versions().find(|(own, _)| *own == ratio).map(|(_, triangles)| triangles)
+    }
+
+    /// What lies across the edges of the triangles of a version; empty where no filter has asked for it.
+    pub fn across_of(&self, ratio: f32) -> &[Edges] {
+        let simplified = self.simplified.iter().find(|version| version.ratio == ratio);
+        simplified.map_or(&self.across, |version| &version.across)
     }
 
     /// The ratio and the triangles of each version: all of it, then those that have been made.

@@ -298,12 +298,13 @@ impl Default for Glass {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Filter {
     /// `width` in pixels; `color` `None`: the surface's own; `fill`: opacity between the wires; `hidden`: wires are seen
-    /// through nearer surfaces of the lens.
+    /// through nearer surfaces of the lens; `edges`: which are drawn.
     Wireframe {
         width: f32,
         color: Option<Color>,
         fill: f32,
         hidden: bool,
+        edges: WireEdges,
     },
     /// `size` in pixels.
     Points {
@@ -480,6 +481,14 @@ pub enum ShowWhat {
     },
     /// Of the scene.
     Nodes(Vec<At<Pattern>>),
+}
+
+/// Which edges of triangles are drawn as wires.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WireEdges {
+    All,
+    /// Without those within flat polygons.
+    Feature,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -20,7 +20,7 @@ impl Tracer<'_> {
         let all = self.geometry.iter().flat_map(|geometry| geometry.triangles.iter().map(move |own| (geometry, own)));
         for (geometry, triangle) in all {
             let Some(hit) = geometry.hit(&sheared, triangle) else { continue };
-            let depth = self.depth(hit.t);
+            let depth = self.depth_of(triangle, &hit, &ray);
             let in_view = depth >= view.near as f32 && depth < before.min(view.far as f32);
             if !in_view || self.is_culled(triangle, &ray) {
                 continue;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Corners, Hit, Shaded, Shader, untextured};
+use super::{Corners, Hit, Shaded, Shader, steps_at_source, untextured};
 use crate::appearance as wgsl;
 use crate::cpu::convert::{a4, g2, g3, g4, v3, v4};
 use crate::cpu::texture;
@@ -30,11 +30,11 @@ impl Shader<'_> {
         let mapped = source.transform_point3(position.as_dvec3() + self.origin) - space.origin;
         let direction = g3(wgsl::cap_direction(v3(normal), cap.variant));
         let along = direction.dot(mapped.as_vec3() * space.scale);
-        let reach = source.matrix3.x_axis.length() as f32 * space.scale;
-        let span = wgsl::cap_span(*ray, v3(position), v3(normal), v3(direction)) * reach;
+        let steps = steps_at_source(&source, wgsl::steps_at(*ray, v3(position), v3(normal)));
+        let span = wgsl::cap_span(steps, v3(direction)) * space.scale;
         let mut stack = fragment.region.stack;
         stack.remove(maker);
-        let corners = self.piece(item, ray, fragment.depth, normal);
+        let corners = self.piece(fragment, ray, normal);
         let weights = Vec3::X;
         let hit = Hit { instance, corners: &corners, weights, position, normal, ray };
         self.staged(wgsl::cap_surface(cap, own, along, span), &hit, stack, passed)
@@ -75,12 +75,14 @@ impl Shader<'_> {
     }
 
     /// A triangle in a cap's plane, its first corner where a ray meets it.
-    fn piece(&self, item: &Item, ray: &wgsl::PixelRay, depth: f32, normal: Vec3) -> Corners<'_> {
-        let position = g3(ray.origin) + g3(ray.direction) * depth;
-        let size = wgsl::cap_piece(*ray, depth);
+    fn piece(&self, fragment: &Fragment, ray: &wgsl::PixelRay, normal: Vec3) -> Corners<'_> {
+        let position = g3(ray.origin) + g3(ray.direction) * fragment.depth;
+        let size = wgsl::cap_piece(*ray, fragment.depth);
         let corner = |number| g3(wgsl::cap_corner(number, v3(position), v3(normal), size));
-        let primitive = &self.scene.models[item.model].meshes[item.mesh].primitives[item.primitive];
-        Corners { primitive, indices: [0; 3], around: [0, 1, 2].map(corner), is_of_cap: true }
+        let number = fragment.instance as usize;
+        let primitive = self.plan.items[self.plan.instances[number].item].primitive_of(self.scene);
+        let (around, to_origin) = ([0, 1, 2].map(corner), &self.transforms[number].point);
+        Corners { primitive, indices: [0; 3], around, to_origin, triangle: None }
     }
 }
 

@@ -130,6 +130,7 @@ fn primitive(
         normals,
         triangles,
         simplified: Vec::new(),
+        across: Vec::new(),
     }))
 }
 

@@ -75,6 +75,7 @@ const WIREFRAME: &[Param] = &[
     param("color", Color, OWN, "of the lines"),
     param("fill", UNIT, Num(0.0), "opacity between the lines"),
     param("hidden", Bool, Yes(true), "draw the lines that nearer surfaces of the lens would hide"),
+    param("edges", Choice(&["all", "feature"]), Word("all"), "`feature` leaves out the diagonals of flat polygons"),
 ];
 const POINTS: &[Param] = &[param("size", PIXELS, Num(3.0), "of the discs, pixels")];
 const ERASE: &[Param] = &[
@@ -90,7 +91,12 @@ const SHOW: &[Param] = &[
 const LOD: &[Param] = &[param("ratio", Number(NumberRange::closed(0.001, 1.0)), Num(0.1), "of triangles kept")];
 const MAGNIFY: &[Param] = &[
     param("factor", Number(NumberRange::POSITIVE), Num(2.0), "how many times larger"),
-    param("center", Vector, Meaning("the lens's centre"), "fixed point, in the shape's space"),
+    param(
+        "center",
+        Vector,
+        Meaning("the lens's centre; of a flat lens the line of sight to it"),
+        "fixed point, in the shape's space",
+    ),
 ];
 const DISPLACE: &[Param] = &[
     param("nodes", Patterns, EVERYTHING, "nodes that move"),

@@ -13,7 +13,7 @@ use crate::InputError;
 use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping};
+use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -348,6 +348,11 @@ fn wireframe(params: &Params) -> Option<Filter> {
         color: params.color("color"),
         fill: params.number("fill")?,
         hidden: params.boolean("hidden")?,
+        edges: match params.text("edges")?.value.as_str() {
+            "all" => WireEdges::All,
+            "feature" => WireEdges::Feature,
+            _ => return None,
+        },
     })
 }
 

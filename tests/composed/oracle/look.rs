@@ -109,6 +109,23 @@ impl<'a> Stage<'a> {
         })
     }
 
+    /// The corners, not on an edge, of the other triangles of a node that run along it; all as shown.
+    pub fn across(&self, subject: usize, moves: &[Act], ends: [DVec3; 2], own: DVec3) -> Vec<DVec3> {
+        let near = |p: DVec3, q: DVec3| p.distance(q) < 1e-6 * p.length().max(1.0);
+        let of = |subject: usize| {
+            let Subject { model, node, shown_by, .. } = &self.subjects[subject];
+            (*model, *node, *shown_by)
+        };
+        let is_same = |candidate: &&Candidate| candidate.moves == moves && of(candidate.subject) == of(subject);
+        let triangles = self.candidates.iter().filter(is_same).flat_map(|candidate| &candidate.triangles);
+        let opposite = |corners: &[DVec3; 3]| {
+            let other = corners.iter().position(|p| ends.iter().all(|end| !near(*p, *end)))?;
+            let is_on = |end: &DVec3| corners.iter().any(|p| near(*p, *end));
+            (ends.iter().all(is_on) && !near(corners[other], own)).then_some(corners[other])
+        };
+        triangles.filter_map(opposite).collect()
+    }
+
     /// Every fragment between near and far that is displayed or may be, nearest first.
     pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
         let mut hits = Vec::new();

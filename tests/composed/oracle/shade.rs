@@ -60,7 +60,7 @@ pub fn shade(stage: &Stage, hit: &Hit, met: &Met, pixel: [f64; 2]) -> Shade {
     // A lens that fades out all there is: somewhere nothing is left.
     let may_be_gone = filters.iter().any(|(filter, amount)| amount.is_none() && alpha_of(filter) == 0.0);
     let shade = Shade { color: colored(color, &filters), opacity, covered: (!may_be_gone).then_some(true) };
-    wired(stage, met, shade, &filters, wire_distance(stage, hit, pixel))
+    wired(stage, met, shade, &filters, &edges(stage, hit, met, pixel))
 }
 
 /// Colour before colour filters, and opacity.
@@ -122,15 +122,17 @@ fn colored(mut color: Option<DVec3>, filters: &[Acting]) -> Option<DVec3> {
     color
 }
 
-/// After the coverage filters; `distance` in pixels to the nearest edge of the triangle.
-fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], distance: f64) -> Shade {
+/// After the coverage filters.
+fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], edges: &[Edge]) -> Shade {
     for (filter, amount) in filters {
         let Filter::Wireframe { width, color, filled } = filter else { continue };
         // Whether a magnifier above makes the lines wider is not said: both count as a rim.
         let widest = width * magnified(stage, met);
-        let on_wire = match distance {
-            d if d < 0.5 * width - RIM => Some(true),
-            d if d > 0.5 * widest + RIM => Some(false),
+        let least = |edge: &Edge| if edge.goes_on == Some(false) { *width } else { 0.5 * width };
+        let most = |edge: &Edge| if edge.goes_on == Some(true) { 0.5 * widest } else { widest };
+        let on_wire = match edges {
+            edges if edges.iter().any(|edge| edge.away < least(edge) - RIM) => Some(true),
+            edges if edges.iter().all(|edge| edge.away > most(edge) + RIM) => Some(false),
             _ => None,
         };
         match on_wire {
@@ -145,17 +147,35 @@ fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], distanc
     shade
 }
 
-/// Pixels from a place of the picture to the nearest edge of a triangle, where it is shown.
-fn wire_distance(stage: &Stage, hit: &Hit, [x, y]: [f64; 2]) -> f64 {
-    // A cap has no edges.
-    let Surface::Triangle(triangle) = hit.surface else { return f64::INFINITY };
-    let distance = |i: usize| {
-        let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
-        let [a, b] = [a, b].map(|p| stage.view.project(p));
-        let (along, from) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
-        (along[0] * from[1] - along[1] * from[0]).abs() / along[0].hypot(along[1])
+/// An edge of a triangle as it is shown.
+struct Edge {
+    /// Pixels from a place of the picture.
+    away: f64,
+    /// Whether the picture shows another triangle of the mesh beyond it; `None` where that is not sure.
+    goes_on: Option<bool>,
+}
+
+/// A cap has none.
+fn edges(stage: &Stage, hit: &Hit, met: &Met, [x, y]: [f64; 2]) -> Vec<Edge> {
+    let Surface::Triangle(triangle) = hit.surface else { return Vec::new() };
+    let edge = |i: usize| {
+        let [a, b, c] = [0, 1, 2].map(|step| triangle[(i + step) % 3]);
+        let [p, q] = [a, b].map(|p| stage.view.project(p));
+        let side = |[x, y]: [f64; 2]| {
+            let (along, from) = ([q[0] - p[0], q[1] - p[1]], [x - p[0], y - p[1]]);
+            (along[0] * from[1] - along[1] * from[0]) / along[0].hypot(along[1])
+        };
+        let own = side(stage.view.project(c));
+        let others = stage.across(hit.subject, &met.moves, [a, b], c).into_iter();
+        let others: Vec<f64> = others.map(|d| side(stage.view.project(d))).collect();
+        let goes_on = match others[..] {
+            [] => Some(false),
+            [other] if other.abs() > 0.1 && own.abs() > 0.1 => Some(other * own < 0.0),
+            _ => None,
+        };
+        Edge { away: side([x, y]).abs(), goes_on }
     };
-    (0..3).map(distance).fold(f64::INFINITY, f64::min)
+    (0..3).map(edge).collect()
 }
 
 /// How many times larger than it is a fragment is shown; at least once.

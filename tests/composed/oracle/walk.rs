@@ -138,6 +138,7 @@ pub struct Composition<'a> {
     pub lenses: Vec<Lens>,
     /// The enabled ones, lowest first.
     pub order: Vec<usize>,
+    view: View,
 }
 
 impl<'a> Composition<'a> {
@@ -152,7 +153,7 @@ impl<'a> Composition<'a> {
         };
         let lenses: Vec<Lens> = case.lenses.iter().map(placed).collect();
         let centers: Vec<DVec3> = lenses.iter().map(|lens| lens.center).collect();
-        Self { case, order: order::total(case, view, &centers), lenses }
+        Self { case, order: order::total(case, view, &centers), lenses, view: view.clone() }
     }
 
     fn filters(&self, actor: Actor) -> &'a [Filter] {
@@ -181,6 +182,22 @@ impl<'a> Composition<'a> {
         let Actor::Lens(lens) = act.by else { return None };
         let center = self.lenses[lens].center;
         match self.filter(act) {
+            Filter::Magnify { factor, center: None } if matches!(self.lenses[lens].solid, Solid::Flat { .. }) => {
+                // About the line of sight, each depth by itself.
+                let source = |p: DVec3| {
+                    let depth = (p - self.view.eye).dot(self.view.forward);
+                    let own = (center - self.view.eye).dot(self.view.forward);
+                    let on_line = if self.view.is_perspective {
+                        self.view.eye + (center - self.view.eye) * (depth / own)
+                    } else {
+                        center + self.view.forward * (depth - own)
+                    };
+                    on_line + (p - on_line) / *factor
+                };
+                let origin = source(DVec3::ZERO);
+                let [x, y, z] = DVec3::AXES.map(|axis| source(axis) - origin);
+                Some(DAffine3::from_cols(x, y, z, origin))
+            }
             Filter::Magnify { factor, center: given } => {
                 let world = self.lenses[lens].shape_from_world.inverse();
                 let fixed = given.map_or(center, |c| world.transform_point3(c));

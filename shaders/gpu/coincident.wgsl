@@ -1,0 +1,42 @@
+// Triangles that lie over each other in one plane have their depths from that plane: one number for all, and a rank in it.
+
+// Words of one: the triangle's number in its primitive, its rank, the plane. Twin of `coincident_data.rs`.
+const IN_PLANE_WORDS: u32 = 6u;
+
+// Where the words of a drawn triangle are, or NONE.
+fn in_plane_at(item: u32, triangle: u32) -> u32 {
+    if !IN_PLANES || items[item].in_plane == NONE {
+        return NONE;
+    }
+    let number = numbers[items[item].first_number + triangle];
+    let first = items[item].in_plane + 1u;
+    var low = 0u;
+    var high = lens_words[first - 1u];
+    while low < high {
+        let middle = (low + high) / 2u;
+        if lens_words[first + IN_PLANE_WORDS * middle] < number {
+            low = middle + 1u;
+        } else {
+            high = middle;
+        }
+    }
+    let at = first + IN_PLANE_WORDS * low;
+    if low == lens_words[first - 1u] || lens_words[at] != number {
+        return NONE;
+    }
+    return at;
+}
+
+// Where a ray meets the plane; `other` where it runs along it.
+fn in_plane_depth(at: u32, ray: PixelRay, other: f32) -> f32 {
+    let normal = lens_vector(at + 2u);
+    let rate = dot(normal, ray.direction);
+    let depth = (bitcast<f32>(lens_words[at + 5u]) - dot(normal, ray.origin)) / select(rate, 1e-30, rate == 0.0);
+    return select(other, depth, abs(depth) < FAR_AWAY);
+}
+
+// Some steps of f32 behind a place between the planes, one for each rank.
+fn ranked(z: f32, rank: u32) -> f32 {
+    let bits = bitcast<u32>(z);
+    return bitcast<f32>(bits - min(bits, rank));
+}
