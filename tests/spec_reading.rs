@@ -5,7 +5,7 @@ use std::path::Path;
 use lenspeel::InputError;
 use lenspeel::spec::{
     At, Attach, CameraPlace, Color, Condition, Convex, Filter, ImageSpec, ProjectionSpec, Rotation, SceneChoice, Shape,
-    ShowWhat, Spec, ToneMapping,
+    ShowWhat, Spec, ToneMapping, WireEdges,
 };
 use proptest::prelude::*;
 

@@ -95,7 +95,7 @@ fn seen(stack: [&Op; 2], surface: wgsl::Surface, edge: f32, value: f32) -> [f32;
     let lit = Vec3::new(base.x * dull + gloss, base.y * dull + gloss, base.z * dull + gloss);
     let color = ops.iter().fold(wgsl::emitted(surface, lit), |c, op| wgsl::filter_color(*op, c));
     let shaded = wgsl::Shaded { color, opacity: wgsl::surface_opacity(surface), coverage: 1.0 };
-    let spot = wgsl::Spot { edge, corner: edge + 0.5, hidden: 0 };
+    let spot = wgsl::Spot { edge, flat_edge: edge + 0.2, rim: edge + 0.3, corner: edge + 0.5, hidden: 0 };
     let s = ops.iter().fold(shaded, |s, op| wgsl::filter_coverage(*op, s, spot));
     [s.color.x, s.color.y, s.color.z, s.opacity, s.coverage]
 }

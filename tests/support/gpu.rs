@@ -13,6 +13,7 @@ use lenspeel::frame::Frame;
 use lenspeel::gpu::{Engine, Headless, Needs, RenderOptions, Renderer, choose_named};
 
 use crate::open::Opened;
+#[allow(unused_imports, reason = "tests that have no `main` of their own start threads before they could call it")]
 pub use driver::translate_fast;
 
 /// Each engine and the name its tests carry.
