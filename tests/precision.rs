@@ -211,7 +211,7 @@ fn orthographic_eyes(draw: Draw) -> Result<(), String> {
 
 fn long_lens(draw: Draw) -> Result<(), String> {
     let flat = pipe(1.0, DVec3::ZERO, &orthographic(10.0)).drawn(draw)?;
-    for distance in [1e5, 1e6] {
+    for distance in [1e5f64, 1e6] {
         let degrees = (2.0 * (2.0 / distance).atan()).to_degrees();
         let camera = format!("eye = {}\ntarget = [0, 0, 0]\nfov_y = {degrees:?}", text(WAY.normalize() * distance));
         pipe(1.0, DVec3::ZERO, &camera).drawn(draw)?.is_as(&flat, 20, &format!("from {distance}"))?;
