@@ -37,13 +37,15 @@ const ALL: [(&str, Check); 8] = [
 fn main() {
     let arguments = Arguments::from_args();
     let mut trials = Vec::new();
+    #[cfg(feature = "gpu")]
+    let is_ignored = gpu::is_ignored();
     for (name, check) in ALL {
         trials.push(Trial::test(format!("{name}::cpu"), move || check(on_cpu).map_err(Failed::from)));
         #[cfg(feature = "gpu")]
         {
             let on_gpu: Draw = |opened| gpu::render(opened, gpu::ENGINES[0].0);
             let trial = Trial::test(format!("{name}::fused"), move || check(on_gpu).map_err(Failed::from));
-            trials.push(trial.with_ignored_flag(gpu::is_ignored()));
+            trials.push(trial.with_ignored_flag(is_ignored));
         }
     }
     libtest_mimic::run(&arguments, trials).exit();
@@ -199,7 +201,7 @@ fn orthographic(distance: f64) -> String {
 
 fn orthographic_eyes(draw: Draw) -> Result<(), String> {
     let near = pipe(1.0, DVec3::ZERO, &orthographic(10.0)).drawn(draw)?;
-    if near.count("tint") < 100 {
+    if near.count("tint") < 20 {
         return Err("the lens is hardly seen".into());
     }
     for distance in [0.1, 300.0, 1e5, 1e6, 1e8] {
