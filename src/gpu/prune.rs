@@ -104,7 +104,7 @@ mod tests {
         @compute @workgroup_size(1) fn run(@builtin(global_invocation_id) id: vec3u) {
             loop {
                 if NOT_NEEDED { out[0] = costly(3.0); } else { if id.x > 3u { break; } }
-                while NOT_NEEDED && id.x > 2u { out[1] = costly(2.0); }
+                while NOT_NEEDED { out[1] = costly(2.0); }
                 switch id.y { case 1u: { if NEEDED { out[2] = cheap(1.0); } } default: {} }
                 if id.y > 0u { if NOT_NEEDED { out[3] = costly(1.0); } }
                 if NEEDED { break; }

@@ -422,7 +422,7 @@ mod tests {
         let [one, other] = square(0.0);
         let third = [Vec3::Y, Vec3::ZERO, Vec3::new(-1.0, 0.5, 0.0)];
         let all = found(&mesh(&[&[one, other, third]]));
-        assert_eq!(all[0][0].beyond(2), [EdgeKind::Flat, EdgeKind::Border]);
+        assert_eq!(all[0][0].beyond(2), [EdgeKind::Border, EdgeKind::Flat]);
         assert_eq!(all[0][1].beyond(0), [EdgeKind::Border; 2]);
     }
 

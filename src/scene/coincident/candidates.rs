@@ -17,7 +17,7 @@ const OFFSETS: f64 = 1.0 / 256.0;
 /// Up to so many triangles in a cell each is held against all others.
 const FEW: usize = 24;
 /// So many triangles are held against each, and so many found, at the most: who puts more over each other is served in part.
-const MOST_ASKED: usize = 1024;
+const MOST_ASKED: usize = 4096;
 const MOST_FOUND: usize = 64;
 
 /// A triangle in a cell of planes: the cell, the triangle's number among all, its part.
