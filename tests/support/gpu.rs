@@ -28,7 +28,7 @@ pub fn is_ignored() -> bool {
     !required && choose_named(None).is_err()
 }
 
-/// What plans have in common that need the same shaders, whichever engine draws them.
+/// What plans have in common that need the same shaders, whichever engine draws them and however large triangles are.
 pub fn needs(opened: &Opened) -> Needs {
     Needs::of(&opened.scene, &opened.plan, Engine::Fused, &[])
 }
