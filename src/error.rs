@@ -17,7 +17,7 @@ pub struct InputError {
     /// What was expected or what to do about it.
     pub help: Option<String>,
     /// The file the labels point into; `None` where the message names the object itself.
-    pub source_text: Option<Source>,
+    pub source_text: Option<Box<Source>>,
     /// Byte ranges with a few words each; the first is the place.
     pub labels: Vec<(Range<usize>, String)>,
     /// What else is wrong, in the order of the file.
@@ -32,7 +32,7 @@ impl InputError {
 
     /// An error at a place of a spec file.
     pub fn at(source: &Source, span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { source_text: Some(source.clone()), ..Self::new(message) }.label(span, "here")
+        Self { source_text: Some(Box::new(source.clone())), ..Self::new(message) }.label(span, "here")
     }
 
     pub fn help(mut self, help: impl Into<String>) -> Self {
@@ -52,7 +52,7 @@ impl InputError {
         if self.source_text.is_some() {
             return self;
         }
-        Self { source_text: Some(source.clone()), ..self }.label(span, "needed here")
+        Self { source_text: Some(Box::new(source.clone())), ..self }.label(span, "needed here")
     }
 
     /// 1-based line of the first label.

@@ -424,9 +424,7 @@ impl<'a> Shader<'a> {
     /// A quantity at the corners of a triangle: a height or a depth counted from the view's origin.
     fn corner_values(&self, quantity: u32, channel: u32, hit: &Hit, source: impl Fn() -> DAffine3) -> Option<Vec3> {
         if quantity == wgsl::QUANTITY_VERTEX.0 {
-            if hit.corners.triangle.is_none() {
-                return None;
-            }
+            hit.corners.triangle?;
             let (values, factor) = self.values[hit.instance.item][channel as usize]?;
             return Some(Vec3::from_array(hit.corners.indices.map(|i| values[i] * factor)));
         }

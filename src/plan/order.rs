@@ -274,7 +274,7 @@ fn too_many_edges(spec: &Spec, pattern: &At<Pattern>) -> InputError {
 
 fn cycle_error(spec: &Spec, graph: &PriorityGraph, cycle: &[EdgeIndex]) -> InputError {
     let mut error = InputError::new(cycle_text(spec, graph, cycle)).help("remove one of these edges");
-    error.source_text = Some(spec.source.clone());
+    error.source_text = Some(Box::new(spec.source.clone()));
     for edge in cycle.iter().take(MOST_LABELS) {
         let (below, above) = names_of_ends(spec, graph, *edge);
         error.labels.push((graph.graph[*edge].span.clone(), format!("`{below}` below `{above}`")));

@@ -24,8 +24,6 @@ use open::Opened;
 type Draw = fn(&Opened) -> Result<Frame, String>;
 
 fn main() {
-    #[cfg(feature = "gpu")]
-    gpu::translate_fast();
     let arguments = Arguments::from_args();
     let mut trials = controls::trials();
     for (name, check) in cases::ALL {

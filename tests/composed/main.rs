@@ -30,8 +30,6 @@ use libtest_mimic::Arguments;
 use product::Party;
 
 fn main() {
-    #[cfg(feature = "gpu")]
-    gpu::translate_fast();
     let arguments = Arguments::from_args();
     let trial = |party: Party| timed::trial(format!("cases::{}", party.name()), move || run::all(party));
     let mut trials = vec![trial(Party::Cpu)];

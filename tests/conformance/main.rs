@@ -27,8 +27,6 @@ use libtest_mimic::{Arguments, Trial};
 const LEAST_CASES: usize = 20;
 
 fn main() {
-    #[cfg(feature = "gpu")]
-    gpu::translate_fast();
     let arguments = Arguments::from_args();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/conformance");
     let trials = if folder.is_dir() {

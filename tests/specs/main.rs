@@ -33,8 +33,6 @@ use libtest_mimic::{Arguments, Trial};
 use entry::{Entry, Kind};
 
 fn main() {
-    #[cfg(feature = "gpu")]
-    gpu::translate_fast();
     let arguments = Arguments::from_args();
     let entries: Vec<Arc<Entry>> = entry::all().into_iter().map(Arc::new).collect();
     let mut trials = controls::trials();

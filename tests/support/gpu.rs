@@ -4,17 +4,12 @@
 //! has just drawn one which needs the same. Without an adapter GPU tests report as ignored; where `LENSPEEL_REQUIRE_GPU`
 //! is 1 they run and fail.
 
-#[path = "driver.rs"]
-mod driver;
-
 use std::sync::{Mutex, MutexGuard, OnceLock, TryLockError};
 
 use lenspeel::frame::Frame;
 use lenspeel::gpu::{Engine, Headless, Needs, RenderOptions, Renderer, choose_named};
 
 use crate::open::Opened;
-#[allow(unused_imports, reason = "tests that have no `main` of their own start threads before they could call it")]
-pub use driver::translate_fast;
 
 /// Each engine and the name its tests carry.
 pub const ENGINES: [(Engine, &str); 2] = [(Engine::Fused, "fused"), (Engine::Peel, "peel")];

@@ -2,8 +2,6 @@
 //!
 //! Without an adapter they report as ignored; with `LENSPEEL_REQUIRE_GPU=1` a missing adapter is a failure.
 
-#[path = "driver.rs"]
-mod driver;
 #[path = "timed.rs"]
 mod timed;
 
@@ -17,7 +15,6 @@ pub type Test = fn(&Headless) -> Result<(), String>;
 
 /// Runs those of the named tests that the command line asks for.
 pub fn run(tests: &[(&str, Test)]) -> ExitCode {
-    driver::translate_fast();
     let arguments = Arguments::from_args();
     let device = device();
     let required = std::env::var("LENSPEEL_REQUIRE_GPU").is_ok_and(|v| v != "0" && !v.is_empty());

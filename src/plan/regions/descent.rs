@@ -24,12 +24,14 @@ pub(super) struct Group {
 
 /// The bits of an affine map.
 type Bits = [u64; 12];
+/// By what items are grouped.
+type GroupKey = (LensSet, LensSet, LensSet, LensSet, Vec<(usize, Bits)>);
 
 impl Plan {
     /// The items that lenses may move, in groups.
     pub(super) fn groups(&self) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
-        let mut known: HashMap<(LensSet, LensSet, LensSet, LensSet, Vec<(usize, Bits)>), usize> = HashMap::new();
+        let mut known: HashMap<GroupKey, usize> = HashMap::new();
         let mut ways: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (number, instance) in self.instances.iter().enumerate() {
             if !self.items[instance.item].movers.is_empty() {
