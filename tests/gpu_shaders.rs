@@ -34,6 +34,7 @@ const LITTLE: Needs = Needs {
     quantities: false,
     hidden_lines: false,
     large: false,
+    wide: false,
     channels: 0,
     screen: false,
 };
@@ -62,6 +63,7 @@ const MOST: Needs = Needs {
     quantities: true,
     hidden_lines: true,
     large: true,
+    wide: true,
     channels: 3,
     screen: true,
 };

@@ -98,7 +98,7 @@ pub fn draws(
                 base_vertex: range.base_vertex as i32,
                 culling: culling(scene, plan, item),
                 rect,
-                plain: fate == Fate::Plain && !large[number],
+                plain: fate == Fate::Plain && !large[number] && !plan.view.is_wide(),
             };
             match draws.last_mut() {
                 Some(last) if last.goes_on(&draw) => {
