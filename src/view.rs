@@ -120,6 +120,9 @@ impl Ray {
 /// From so many times its distance on a triangle is very large.
 const LARGE: f64 = 32.0;
 
+/// See [`View::is_wide`].
+const WIDE: f64 = 1e3;
+
 impl View {
     pub fn is_perspective(&self) -> bool {
         matches!(self.projection, Projection::Perspective { .. })
@@ -133,6 +136,13 @@ impl View {
     /// The distance from the eye, along the forward axis, of a depth.
     pub fn from_eye(&self, depth: f64) -> f64 {
         self.anchor.depth + depth
+    }
+
+    /// Whether the scene reaches so far beyond what an orthographic camera's picture shows that drawn depths, spread evenly over
+    /// it, would not tell apart what is seen.
+    pub fn is_wide(&self) -> bool {
+        let [near, far] = self.anchor.drawn;
+        !self.is_perspective() && far - near > WIDE * self.half_diagonal()
     }
 
     /// Whether a triangle, its corners relative to the origin, is very large for how far it is from there or, nearer than

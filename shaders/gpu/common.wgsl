@@ -8,7 +8,8 @@
 // (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
 // (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
 // (`QUANTITIES`), has wires that nearer surfaces hide (`HIDDEN_LINES`), or
-// some triangle is very large for how near it is (`LARGE`), or lies in a plane with others (`IN_PLANES`). `CHANNELS`: how many numbers at vertices filters
+// some triangle is very large for how near it is (`LARGE`) or lies in a plane with others (`IN_PLANES`), or the scene reaches
+// very far beyond what is seen (`WIDE`). `CHANNELS`: how many numbers at vertices filters
 // read, at least 1.
 // Positions are relative to the view's origin, along the world's axes, and depths are counted from its anchor (see
 // `view.rs`), unless a name says otherwise.

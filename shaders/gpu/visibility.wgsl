@@ -24,6 +24,10 @@ fn vertex(
 
 // Reverse-Z over what there is to be drawn: 1 to 0, linear for an orthographic camera.
 fn drawn_depth(depth: f32) -> f32 {
+    if WIDE {
+        // Finest around the anchor: single precision of a depth that is spread evenly over a scene so wide tells nothing apart.
+        return 0.5 - 0.5 * depth / (abs(depth) + frame.merge_across);
+    }
     return place_between_planes(depth) * select(1.0, frame.drawn_from_eye / (frame.anchor + depth), frame.perspective != 0u);
 }
 
@@ -143,7 +147,7 @@ struct KeptAt {
 
 // The drawn depth of a fragment.
 fn z_of(in: Varying, depth: f32) -> f32 {
-    if has_planes(in.item) {
+    if WIDE || has_planes(in.item) {
         return drawn_depth(depth);
     }
     return in.position.z;

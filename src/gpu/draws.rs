@@ -101,7 +101,7 @@ pub fn draws(
                 base_vertex: range.base_vertex as i32,
                 culling: culling(scene, plan, item),
                 rect,
-                plain: fate == Fate::Plain && !in_planes && !large[number],
+                plain: fate == Fate::Plain && !in_planes && !large[number] && !plan.view.is_wide(),
                 in_planes,
             };
             match draws.last_mut() {

@@ -60,6 +60,8 @@ pub struct Needs {
     pub hidden_lines: bool,
     /// Some triangle is very large for how near it is.
     pub large: bool,
+    /// The scene reaches very far beyond what is seen: see [`View::is_wide`](crate::view::View::is_wide).
+    pub wide: bool,
     /// How many numbers at vertices filters read.
     pub channels: u32,
     /// Some filter works on the finished picture.
@@ -105,6 +107,7 @@ impl Needs {
             quantities: plan.ops.iter().any(Op::reads_quantity),
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
             large: large.contains(&true),
+            wide: plan.view.is_wide(),
             channels: plan.channels.len() as u32,
             screen: !plan.screen.is_empty(),
             in_planes: !plan.coincident.is_empty(),
@@ -228,6 +231,7 @@ impl Needs {
             ("QUANTITIES", self.quantities),
             ("HIDDEN_LINES", self.hidden_lines),
             ("LARGE", self.large),
+            ("WIDE", self.wide),
             ("SCREEN", self.screen),
             ("IN_PLANES", self.in_planes),
         ];

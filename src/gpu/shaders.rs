@@ -107,7 +107,7 @@ pub fn source(module: Module, needs: &Needs, custom: &str) -> String {
         text += custom;
     }
     if module == Module::Visibility {
-        text += if needs.versions || needs.large { KEPT_VERSIONS } else { KEPT };
+        text += if needs.versions || needs.large || needs.wide { KEPT_VERSIONS } else { KEPT };
     }
     for part in module.parts().iter().copied().flatten() {
         text += part;
