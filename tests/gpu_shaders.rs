@@ -270,10 +270,18 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             body,
             caps,
             node,
+            ratio,
+            spread,
+            planes,
+            group,
+            roles,
+            lids,
+            in_plane,
+            across,
         ]
     );
-    // Five masks of two words each follow, then a channel of two words, then padding to 16 bytes.
-    assert_eq!(size("Item"), (size_of::<ItemRecord>() + 5 * 2 * 4 + 2 * 4).next_multiple_of(16));
+    // Six masks of two words each follow, then a channel of two words, then padding to 16 bytes.
+    assert_eq!(size("Item"), (size_of::<ItemRecord>() + 6 * 2 * 4 + 2 * 4).next_multiple_of(16));
     same_layout!(&module, "Step", StepRecord, [row_x, row_y, row_z, rank]);
     assert_eq!(size("Step"), size_of::<StepRecord>());
     same_layout!(

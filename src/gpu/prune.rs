@@ -98,7 +98,7 @@ mod tests {
         @group(0) @binding(0) var<storage, read_write> out: array<f32>;
         fn costly(x: f32) -> f32 { return sin(x); }
         fn cheap(x: f32) -> f32 {
-            if NEEDED && !NOT_NEEDED { return x + 1.0; }
+            if NEEDED { return x + 1.0; }
             return costly(x);
         }
         @compute @workgroup_size(1) fn run(@builtin(global_invocation_id) id: vec3u) {

@@ -7,7 +7,7 @@ use super::solid::hit;
 use super::view::{Ray, View};
 use super::walk::{Act, Actor, Composition, Met, Outcome, Subject};
 use super::{names, place};
-use crate::case::{Cap, Case, Filter};
+use crate::case::{Cap, Case, Filter, Shape};
 
 /// Surfaces closer than this share of the depth to a boundary or to each other, at least of one unit, are in doubt.
 pub const DOUBT: f64 = 1e-4;
@@ -179,6 +179,19 @@ impl<'a> Stage<'a> {
             lens.solid.has_flat_part() && lens.boundaries(ray).iter().any(|depth| *depth > self.farthest)
         };
         self.case.camera.far.is_none() && self.composition.lenses.iter().find(ends_late).is_some()
+    }
+
+    /// Whether some lens has no bounds and a plane of the camera is fitted, which does not reach for it: where, is not said.
+    pub fn may_leave_lenses_out(&self) -> bool {
+        fn goes_on(shape: &Shape) -> bool {
+            match shape {
+                Shape::Plane { .. } => true,
+                Shape::Compound(_, parts) => parts.iter().any(goes_on),
+                _ => false,
+            }
+        }
+        let is_fitted = self.case.camera.near.is_none() || self.case.camera.far.is_none();
+        is_fitted && self.case.lenses.iter().any(|lens| goes_on(&lens.shape))
     }
 
     /// Where lenses begin and end along a ray between near and far, nearest first.

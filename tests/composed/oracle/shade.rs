@@ -128,10 +128,11 @@ fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], edges: 
         let Filter::Wireframe { width, color, filled } = filter else { continue };
         // Whether a magnifier above makes the lines wider is not said: both count as a rim.
         let widest = width * magnified(stage, met);
-        let least = |edge: &Edge| if edge.goes_on == Some(false) { *width } else { 0.5 * width };
+        // Where the surface turns away, lines of its neighbours may reach over this triangle's corners: only the inner half is sure.
+        let least = 0.5 * width;
         let most = |edge: &Edge| if edge.goes_on == Some(true) { 0.5 * widest } else { widest };
         let on_wire = match edges {
-            edges if edges.iter().any(|edge| edge.away < least(edge) - RIM) => Some(true),
+            edges if edges.iter().any(|edge| edge.away < least - RIM) => Some(true),
             edges if edges.iter().all(|edge| edge.away > most(edge) + RIM) => Some(false),
             _ => None,
         };
