@@ -32,7 +32,7 @@ fn main() {
     }
     contenders.push(timed(VISIBILITY, || std::hint::black_box(renderers[0].depths()).len()));
     contenders.push(timed("set up", || {
-        std::hint::black_box(Renderer::new(&scene, &plans[0]));
+        std::hint::black_box(Renderer::new(&scene, &plans[0]).expect("a plan of this scene"));
         0
     }));
     let Ok(measured) = interleaved(&mut contenders, ROUNDS, |round| eprintln!("round {round} of {ROUNDS}"));

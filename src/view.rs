@@ -71,7 +71,7 @@ impl Merging {
     /// Of the distance from the eye.
     pub const SHARE: f64 = 1e-5;
     /// What single precision resolves after the arithmetic of a boundary: some units in the last place.
-    pub const RESOLVED: f64 = 1e-6;
+    pub const RESOLVED: f64 = 4e-6;
 
     /// How far apart boundaries at a depth may be to be one.
     pub fn at(&self, depth: f64) -> f64 {

@@ -22,7 +22,7 @@ const TILE: u32 = 16u;
 const DISPATCH_WIDTH: u32 = 1024u;
 // Of the distance from a perspective camera's eye, and what single precision resolves: see `merge_at`.
 const MERGE: f32 = 1e-5;
-const RESOLVED: f32 = 1e-6;
+const RESOLVED: f32 = 4e-6;
 
 // How far apart boundaries at a depth may be to be one: twin of `Merging` in `view.rs`.
 fn merge_at(depth: f32) -> f32 {

@@ -292,8 +292,9 @@ mod tests {
     }
 
     fn colors(random: &mut Random, count: usize) -> Vec<Weighed> {
-        let color =
-            |_| if random.next() % 3 == 0 { (Vec4::ZERO, 0.0) } else { (Vec4::splat(random.next() as f32), 1.0) };
+        let color = |_| {
+            if random.next().is_multiple_of(3) { (Vec4::ZERO, 0.0) } else { (Vec4::splat(random.next() as f32), 1.0) }
+        };
         (0..count).map(color).collect()
     }
 
@@ -341,7 +342,7 @@ mod tests {
         let random = &mut Random(2);
         let (width, height) = (31, 19);
         for reach in [0, 1, 3, 50] {
-            let marks: Vec<bool> = (0..width * height).map(|_| random.next() % 37 == 0).collect();
+            let marks: Vec<bool> = (0..width * height).map(|_| random.next().is_multiple_of(37)).collect();
             let nearest = |place: usize| {
                 let away = |other: usize| {
                     [place % width, place / width]

@@ -145,7 +145,7 @@ fn eye_inside(draw: Draw) -> Result<(), String> {
     let view = &opened.plan.view;
     for at in 0..aovs.depth.len() {
         let (x, y) = ((at % 120) as f64 + 0.5, (at / 120) as f64 + 0.5);
-        let away = view.ray(x, y).at(f64::from(aovs.depth[at])).distance(view.eye);
+        let away = view.ray(x, y).at(aovs.depth[at]).distance(view.eye);
         if cap_maker(aovs.triangles[at]).is_none() || (away - 0.4).abs() > 1e-4 {
             return Err(format!("at {x},{y} triangle {} is seen {away} from the eye", aovs.triangles[at]));
         }

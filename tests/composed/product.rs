@@ -78,7 +78,7 @@ impl Picture {
             stack: self.stack(region.stack),
             cap_by: cap_maker(aovs.triangles[at]).map(|maker| self.actor(maker)),
             node: (aovs.nodes[at] as usize).wrapping_sub(1),
-            depth: f64::from(aovs.depth[at]),
+            depth: aovs.depth[at],
         });
         Pixel { visible, layers: aovs.layers[at].into(), color: self.frame.pixels[at] }
     }

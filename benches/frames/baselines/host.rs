@@ -205,17 +205,17 @@ impl Surface {
             panic!("the benchmarks look in perspective");
         };
         let aspect = f64::from(view.size[0]) / f64::from(view.size[1]);
-        // Reverse-Z with an infinite far plane.
+        // Reverse-Z with an infinite far plane. Such a camera's anchor is its eye.
         let rows = [
             (view.right / (tan_half_y * aspect)).extend(0.0),
             (view.up / tan_half_y).extend(0.0),
-            glam::DVec4::new(0.0, 0.0, 0.0, view.near),
+            glam::DVec4::new(0.0, 0.0, 0.0, view.from_eye(view.near)),
             view.forward.extend(0.0),
         ];
         let clip_from_eye = glam::DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose().as_mat4();
         let mut lights = [[0; 16]; MOST_LIGHTS];
         for (record, light) in lights.iter_mut().zip(&plan.lighting.lights) {
-            *record = bytemuck::cast(light.around(view.eye));
+            *record = bytemuck::cast(*light);
         }
         let record = SceneRecord {
             clip_from_eye: clip_from_eye.to_cols_array_2d(),

@@ -36,14 +36,14 @@ pub fn closed(lens: &Lens, plan: &Plan) -> Option<Closed> {
 
 /// The planes of a mesh's triangles; `None` where it is not convex.
 fn hull_planes(mesh: &MeshSolid) -> Option<Vec<Plane>> {
-    let middle = mesh.vertices.iter().sum::<DVec3>() / mesh.vertices.len() as f64;
+    let middle = mesh.tree.vertices.iter().sum::<DVec3>() / mesh.tree.vertices.len() as f64;
     let outward = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|i| mesh.vertices[i as usize]);
+        let [a, b, c] = triangle.map(|i| mesh.tree.vertices[i as usize]);
         let normal = (b - a).cross(c - a);
         Plane::through(if normal.dot(a - middle) < 0.0 { -normal } else { normal }, a)
     };
-    let planes: Vec<Plane> = mesh.triangles.iter().map(outward).collect();
-    let holds = |p: &Plane| mesh.vertices.iter().all(|v| p.distance(*v) < 1e-6);
+    let planes: Vec<Plane> = mesh.tree.triangles.iter().map(outward).collect();
+    let holds = |p: &Plane| mesh.tree.vertices.iter().all(|v| p.distance(*v) < 1e-6);
     planes.iter().all(holds).then_some(planes)
 }
 
