@@ -123,7 +123,7 @@ pub struct ItemRecord {
     pub spread: f32,
     /// Among the vectors of lenses, or `u32::MAX`: the planes of its triangles.
     pub planes: u32,
-    /// See [`super::cut_data::CutWords`].
+    /// See `cut_data::CutWords`.
     pub group: u32,
     pub roles: u32,
     pub lids: u32,
