@@ -45,6 +45,7 @@ fn example(param: &Param) -> String {
         ParamKind::Choice(words) => format!("\"{}\"", words[0]),
         ParamKind::ColorMap => "\"magma-r\"".to_owned(),
         ParamKind::Patterns => "[\"Bolt*\"]".to_owned(),
+        ParamKind::Outline => "{ width = 2, color = \"orange\" }".to_owned(),
         ParamKind::Cap => "\"hatch\"".to_owned(),
         ParamKind::FreeTable => "{ anything = 1 }".to_owned(),
     })

@@ -5,9 +5,3 @@
 fn pixelate_side(op: Op) -> f32 {
     return 2.0 * floor(op.b.x + 0.5) + 1.0;
 }
-
-// Of a pixel in a row or a column, both numbered in the whole picture.
-fn pixelate_weight(op: Op, at: f32, other: f32) -> f32 {
-    let side = pixelate_side(op);
-    return select(0.0, 1.0, floor(at / side) == floor(other / side));
-}

@@ -19,8 +19,8 @@ struct Closing {
 }
 
 // What an item is closed with: in `lens_words` the number of those who close it, then for each its rank, how its caps look,
-// and their colour.
-const CAP_WORDS: u32 = 6u;
+// their colour, and the filter that draws the line around them, or NONE.
+const CAP_WORDS: u32 = 7u;
 
 // Where the cap of a lens or rule stands, or NONE.
 fn cap_words(item: u32, maker: u32) -> u32 {

@@ -4,7 +4,8 @@
 // counts where the ray crosses it last in front of the fragment, and first behind it.
 fn with_contact_lines(color: vec3f, on: Fragment, met: Meeting, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> vec3f {
     let t = met.triangle;
-    let normal = flat_normal(t.a, t.b, t.c);
+    // All of a cap lies in a lens's surface, and finds no line there but that of other surfaces.
+    let normal = select(flat_normal(t.a, t.b, t.c), met.hit.weights, is_cap(on.triangle));
     let at = lens_ray(sample_point(pixel));
     var lined = color;
     var compound = NONE;

@@ -54,8 +54,7 @@ fn composited(pixel: vec2u) -> Composited {
         }
         let met = met_at(pick, tile, pixel, ray);
         var shaded = shade(met.fragment, met.at, ray, passed);
-        // All of a cap lies in a lens's surface.
-        if CONTACT && !is_cap(pick.triangle) {
+        if CONTACT {
             shaded.color = with_contact_lines(shaded.color, met.fragment, met.at, tile, pixel, ray);
         }
         passed = also_passed(passed, met.fragment, shaded);
@@ -120,9 +119,22 @@ fn resolve_sample(@builtin(global_invocation_id) id: vec3u) {
     let seen = composited(id.xy);
     let fragment = seen.visible.fragment;
     var item = select(0u, fragment.item + 1u, seen.visible.found);
+    var outline = 0u;
     if item != 0u && is_cap(fragment.triangle) {
         item |= SEEN_CAP;
+        let words = cap_words(fragment.item, fragment.triangle - FIRST_CAP);
+        if words != NONE {
+            outline = lens_words[words + 6u] + 1u;
+        }
     }
     samples[id.y * frame.window_size.x + id.x] =
-        ScreenSample(seen.color, seen.visible.normal, fragment.depth, item, fragment.around, fragment.stack);
+        ScreenSample(
+            seen.color,
+            seen.visible.normal,
+            fragment.depth,
+            item,
+            outline,
+            fragment.around,
+            fragment.stack,
+        );
 }

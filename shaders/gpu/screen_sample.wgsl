@@ -11,6 +11,8 @@ struct ScreenSample {
     depth: f32,
     // The number of its item plus one, with SEEN_CAP where it is a cap; 0: nothing is visible.
     item: u32,
+    // Of a cap the number of the filter that draws a line around it, plus one; else 0.
+    outline: u32,
     around: Set,
     stack: Set,
 }

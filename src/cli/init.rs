@@ -26,6 +26,7 @@ pub fn run(path: &Path, output: Option<&Path>, options: &OpenOptions, messages: 
     }
     outputs::check_whole(output, "the starter spec", "toml")?;
     let model = Model::load_with(path, None, options)?;
+    model.check_bounds()?;
     let file = if into_file { relative(path, folder_of(output)) } else { std::path::absolute(path).ok() };
     let file = file.unwrap_or_else(|| path.to_path_buf());
     let name = file.to_str().ok_or_else(|| {
@@ -33,19 +34,8 @@ pub fn run(path: &Path, output: Option<&Path>, options: &OpenOptions, messages: 
             .help("give the file, or the folder that it is in, another name")
     })?;
     let text = init_text(&model, name);
-    // A model may be larger or smaller than the numbers of a spec reach.
-    Spec::parse(&text, "the starter spec", Path::new("")).map_err(|error| {
-        let size = model.bounds().size();
-        let message = format!(
-            "{}: no starter spec fits the model, whose bounds are {:e} x {:e} x {:e}: {}",
-            path.display(),
-            size.x,
-            size.y,
-            size.z,
-            error.message
-        );
-        InputError::new(message).help("scale the model; `lenspeel info` tells its bounds")
-    })?;
+    // Numbers of a spec are as large as what is drawn.
+    Spec::parse(&text, "the starter spec", Path::new(""))?;
     outputs::write(output, text.as_bytes())?;
     if into_file {
         messages.note(format_args!("wrote {}", output.display()));

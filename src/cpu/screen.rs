@@ -28,6 +28,8 @@ struct Point {
     /// Into [`Plan::instances`].
     instance: u32,
     is_cap: bool,
+    /// Of a cap that has a line around it the filter that draws it: into [`Plan::ops`].
+    outline: Option<usize>,
     /// The lenses around it, and those that act.
     set: LensSet,
     stack: LensSet,
@@ -39,7 +41,7 @@ impl Plane {
         let along = |number: u32| (f64::from(number) + 0.5) / f64::from(side);
         let zero = v3(glam::Vec3::ZERO);
         let seen = wgsl::Seen { found: 0, depth: 0.0, position: zero, normal: zero, span: 0.0 };
-        let nothing = Point { seen, instance: 0, is_cap: false, set: LensSet::EMPTY, stack: LensSet::EMPTY };
+        let nothing = Point { seen, instance: 0, is_cap: false, outline: None, set: LensSet::EMPTY, stack: LensSet::EMPTY };
         let count = rect.area() as usize;
         let at = [along(sample % side), along(sample / side)];
         Self { rect, at, colors: vec![Vec4::ZERO; count], seen: vec![nothing; count] }
@@ -59,8 +61,10 @@ impl Plane {
         let position = d3(ray.at(depth) - view.origin());
         let seen = wgsl::Seen { found: 1, depth: fragment.depth, position, normal: v3(*normal), span: span as f32 };
         let Region { set, stack } = fragment.region;
-        let is_cap = cap_maker(fragment.triangle).is_some();
-        self.seen[at] = Point { seen, instance: fragment.instance, is_cap, set, stack };
+        let maker = cap_maker(fragment.triangle);
+        let item = &plan.items[plan.instances[fragment.instance as usize].item];
+        let outline = maker.and_then(|maker| plan.outline(item.cap(maker)?));
+        self.seen[at] = Point { seen, instance: fragment.instance, is_cap: maker.is_some(), outline, set, stack };
     }
 
     fn width(&self) -> usize {
@@ -77,8 +81,12 @@ impl Plane {
         [self.rect.min[0] + column, self.rect.min[1] + row]
     }
 
-    fn acts(&self, place: usize, rank: usize) -> bool {
-        self.seen[place].stack.contains(rank)
+    fn acts(&self, plan: &Plan, place: usize, step: ScreenStep) -> bool {
+        let point = &self.seen[place];
+        if plan.ops[step.op].kind == wgsl::OP_ERASE.0 {
+            return point.outline == Some(step.op);
+        }
+        point.stack.contains(step.rank)
     }
 
     /// The places up to `reach` pixels from one along a row (axis 0) or a column (axis 1), each with its number on that axis.
@@ -95,80 +103,85 @@ impl Plane {
 
     fn run(&mut self, plan: &Plan, step: ScreenStep) {
         let op = &plan.ops[step.op];
-        if op.kind == wgsl::OP_EDGES.0 {
-            self.draw_edges(plan, op.shader(), step.rank);
+        if op.draws_lines() {
+            self.draw_lines(plan, op.shader(), step);
         } else {
-            self.take_means(plan, op.shader(), op.screen_reach(), step.rank);
+            self.take_means(plan, op.shader(), op.screen_reach(), step);
         }
     }
 
-    /// Colours all pixels on which a filter acts, which fades in where its lens is soft.
-    fn put_all(&mut self, plan: &Plan, rank: usize, filtered: impl Fn(&Self, usize) -> Vec4 + Sync) {
+    /// Colours all pixels on which a filter acts, which fades in where its lens is soft; caps are there or not.
+    fn put_all(&mut self, plan: &Plan, step: ScreenStep, filtered: impl Fn(&Self, usize) -> Vec4 + Sync) {
+        let fades = plan.ops[step.op].kind != wgsl::OP_ERASE.0;
         let color = |place: usize| {
-            if !self.acts(place, rank) {
+            if !self.acts(plan, place, step) {
                 return self.colors[place];
             }
+            if !fades {
+                return filtered(self, place);
+            }
             let Point { seen, instance, .. } = &self.seen[place];
-            let amount = soft_amount(plan, rank, &plan.instances[*instance as usize], g3(seen.position));
+            let amount = soft_amount(plan, step.rank, &plan.instances[*instance as usize], g3(seen.position));
             self.colors[place].lerp(filtered(self, place), amount)
         };
         self.colors = (0..self.colors.len()).into_par_iter().map(color).collect();
     }
 
     /// Each pixel of the lens as the weighted mean of those around it: sums along rows, then of these along columns.
-    fn take_means(&mut self, plan: &Plan, op: wgsl::Op, reach: u32, rank: usize) {
+    fn take_means(&mut self, plan: &Plan, op: wgsl::Op, reach: u32, step: ScreenStep) {
         let width = self.width();
         // What takes no part weighs nothing.
         let weighed = |place: usize| {
-            let takes_part = self.acts(place, rank);
+            let takes_part = self.acts(plan, place, step);
             if takes_part { (self.colors[place], 1.0) } else { (Vec4::ZERO, 0.0) }
         };
         let all: Vec<Weighed> = (0..self.colors.len()).into_par_iter().map(weighed).collect();
         let sums = if op.kind == wgsl::OP_PIXELATE.0 {
-            let side = wgsl::pixelate_side(op) as usize;
+            let side = wgsl::mean_side(op) as usize;
             let [left, top] = self.rect.min.map(|first| first as usize % side);
             cell_sums(&all, width, side, left, top)
         } else {
-            let weights: Vec<f32> = (0..=reach).map(|away| wgsl::mean_weight(op, 0.0, away as f32)).collect();
-            bell_sums(&all, width, &weights)
+            bell_sums(&all, width, reach as usize, f64::from(wgsl::blur_turn(op)))
         };
-        self.put_all(plan, rank, |_, place| sums[place].0 / sums[place].1);
+        self.put_all(plan, step, |_, place| sums[place].0 / sums[place].1);
     }
 
-    fn draw_edges(&mut self, plan: &Plan, op: wgsl::Op, rank: usize) {
+    fn draw_lines(&mut self, plan: &Plan, op: wgsl::Op, step: ScreenStep) {
         let places = 0..self.colors.len();
-        let marks: Vec<bool> = places.into_par_iter().map(|place| self.has_mark(plan, op, rank, place)).collect();
-        let away = squared_distances(&marks, self.width(), wgsl::edges_reach(op) as u32);
-        self.put_all(plan, rank, |plane, place| {
-            // The nearest line covers most.
-            let covered = match away[place] {
-                FAR => 0.0,
-                squared => wgsl::line_coverage((squared as f32).sqrt(), op.b.x),
-            };
-            g4(wgsl::edges_drawn(op, v4(plane.colors[place]), covered))
+        let marks: Vec<u32> = places.into_par_iter().map(|place| self.mark(plan, op, step, place)).collect();
+        let reach = wgsl::line_reach(op) as u32;
+        let [shared, alone] = [wgsl::MARK_SHARED.0, wgsl::MARK_ALONE.0].map(|kind| {
+            let is_there: Vec<bool> = marks.iter().map(|mark| *mark == kind).collect();
+            squared_distances(&is_there, self.width(), reach)
+        });
+        self.put_all(plan, step, |plane, place| {
+            let away = |squared: u32| if squared == FAR { NO_LINE } else { (squared as f32).sqrt() };
+            g4(wgsl::under_lines(op, v4(plane.colors[place]), away(shared[place]), away(alone[place])))
         });
     }
 
-    /// Whether a line lies on a pixel.
-    fn has_mark(&self, plan: &Plan, op: wgsl::Op, rank: usize, place: usize) -> bool {
+    /// How a line lies on a pixel: a `MARK_...` constant.
+    fn mark(&self, plan: &Plan, op: wgsl::Op, step: ScreenStep, place: usize) -> u32 {
         let p = &self.seen[place];
-        if !self.acts(place, rank) {
-            return false;
+        if !self.acts(plan, place, step) {
+            return wgsl::MARK_NONE.0;
         }
+        let regions_count = op.kind == wgsl::OP_EDGES.0;
         let [x, y] = self.pixel(place);
         let mark = |comes_after: bool, other: usize| {
             let q = &self.seen[other];
             let border = match () {
-                () if !self.acts(other, rank) => wgsl::BORDER_OF_FILTER,
-                () if q.set != p.set || is_other_section(plan, p, q) => wgsl::BORDER_OF_REGION,
+                () if !self.acts(plan, other, step) => wgsl::BORDER_OF_FILTER,
+                () if (regions_count && q.set != p.set) || is_other_section(plan, p, q) => wgsl::BORDER_OF_REGION,
                 () => wgsl::BORDER_NONE,
             };
-            wgsl::edges_mark(op, p.seen, q.seen, border.0, comes_after)
+            wgsl::line_mark(op, p.seen, q.seen, border.0, comes_after)
         };
         let row = self.along(place, 0, 1).filter(|(number, _)| *number != x).map(|(number, other)| (number > x, other));
         let column =
             self.along(place, 1, 1).filter(|(number, _)| *number != y).map(|(number, other)| (number > y, other));
-        row.chain(column).any(|(comes_after, other)| mark(comes_after, other))
+        let marks = row.chain(column).map(|(comes_after, other)| mark(comes_after, other));
+        marks.max().unwrap_or(wgsl::MARK_NONE.0)
     }
 }
 
@@ -197,26 +210,93 @@ fn add(to: &mut Weighed, from: &Weighed, weight: f32) {
     to.1 += from.1 * weight;
 }
 
-/// For each place the weighted sum of all up to `weights.len() - 1` rows and columns away, by how far they are.
-fn bell_sums(all: &[Weighed], width: usize, weights: &[f32]) -> Vec<Weighed> {
-    let (reach, height) = (weights.len() - 1, all.len() / width);
-    let around = |at: usize, length: usize| at.saturating_sub(reach)..(at + reach + 1).min(length);
-    let in_row = |(place, sum): (usize, &mut Weighed)| {
-        let (row, x) = (place / width * width, place % width);
-        for other in around(x, width) {
-            add(sum, &all[row + other], weights[other.abs_diff(x)]);
-        }
-    };
+/// For each place the sum of all up to `reach` rows and columns away, weighted as `blur_weight` has it: half a constant and
+/// half a cosine that turns by `turn` from place to place, whose sums move on with the place: it takes as long for any reach.
+fn bell_sums(all: &[Weighed], width: usize, reach: usize, turn: f64) -> Vec<Weighed> {
+    let height = all.len() / width;
     let mut rows = vec![(Vec4::ZERO, 0.0); all.len()];
-    rows.par_iter_mut().enumerate().for_each(in_row);
-    let mut sums = vec![(Vec4::ZERO, 0.0); all.len()];
-    sums.par_chunks_mut(width).enumerate().for_each(|(y, sums)| {
-        for other in around(y, height) {
-            let weight = weights[other.abs_diff(y)];
-            sums.iter_mut().zip(&rows[other * width..]).for_each(|(sum, row)| add(sum, row, weight));
+    rows.par_chunks_mut(width).zip(all.par_chunks(width)).for_each(|(sums, row)| {
+        let mut window = Bell::new(reach, turn);
+        row[..reach.min(width)].iter().for_each(|place| window.move_on(None, Some(place)));
+        for (at, sum) in sums.iter_mut().enumerate() {
+            window.move_on(at.checked_sub(reach + 1).map(|left| &row[left]), row.get(at + reach));
+            *sum = window.sum();
         }
     });
+    // Stripes of columns side by side: what is read at once lies in a line of memory.
+    const STRIPE: usize = 16;
+    let stripes: Vec<Vec<Weighed>> = (0..width)
+        .step_by(STRIPE)
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .map(|first| {
+            let columns = first..(first + STRIPE).min(width);
+            let place = |y: usize, x: usize| &rows[y * width + x];
+            let mut windows = vec![Bell::new(reach, turn); columns.len()];
+            for y in 0..reach.min(height) {
+                windows.iter_mut().zip(columns.clone()).for_each(|(window, x)| window.move_on(None, Some(place(y, x))));
+            }
+            let mut sums = Vec::with_capacity(columns.len() * height);
+            for y in 0..height {
+                for (window, x) in windows.iter_mut().zip(columns.clone()) {
+                    let left = y.checked_sub(reach + 1).map(|left| place(left, x));
+                    window.move_on(left, (y + reach < height).then(|| place(y + reach, x)));
+                    sums.push(window.sum());
+                }
+            }
+            sums
+        })
+        .collect();
+    let mut sums = rows;
+    for (number, stripe) in stripes.iter().enumerate() {
+        let columns = STRIPE.min(width - number * STRIPE);
+        for (y, row) in stripe.chunks(columns).enumerate() {
+            sums[y * width + number * STRIPE..][..columns].copy_from_slice(row);
+        }
+    }
     sums
+}
+
+/// Sums over a window that moves along a line: of a constant, and of a cosine and a sine around its middle.
+#[derive(Clone)]
+struct Bell {
+    plain: Sum,
+    cosine: Sum,
+    sine: Sum,
+    /// The cosine and sine of one step, and of as many as the window reaches.
+    one: [f64; 2],
+    last: [f64; 2],
+}
+
+/// A colour and its weight.
+type Sum = [f64; 5];
+
+impl Bell {
+    fn new(reach: usize, turn: f64) -> Self {
+        let at = |steps: usize| [(turn * steps as f64).cos(), (turn * steps as f64).sin()];
+        Self { plain: [0.0; 5], cosine: [0.0; 5], sine: [0.0; 5], one: at(1), last: at(reach) }
+    }
+
+    /// By one place: what leaves it, and what enters it.
+    fn move_on(&mut self, left: Option<&Weighed>, entered: Option<&Weighed>) {
+        let numbers = |place: Option<&Weighed>| {
+            let (color, weight) = place.copied().unwrap_or((Vec4::ZERO, 0.0));
+            [color.x, color.y, color.z, color.w, weight].map(f64::from)
+        };
+        let (left, entered) = (numbers(left), numbers(entered));
+        let ([one_cos, one_sin], [last_cos, last_sin]) = (self.one, self.last);
+        for i in 0..5 {
+            self.plain[i] += entered[i] - left[i];
+            let (cosine, sine) = (self.cosine[i] - left[i] * last_cos, self.sine[i] + left[i] * last_sin);
+            self.cosine[i] = cosine * one_cos + sine * one_sin + entered[i] * last_cos;
+            self.sine[i] = sine * one_cos - cosine * one_sin + entered[i] * last_sin;
+        }
+    }
+
+    fn sum(&self) -> Weighed {
+        let [x, y, z, w, weight] = std::array::from_fn(|i| 0.5 * (self.plain[i] + self.cosine[i]) as f32);
+        (Vec4::new(x, y, z, w), weight)
+    }
 }
 
 /// For each place the sum of its square of `side` rows and columns; the first square begins `left` columns and `top` rows
@@ -247,6 +327,8 @@ fn cell_sums(all: &[Weighed], width: usize, side: usize, left: usize, top: usize
 
 /// No mark is within reach.
 const FAR: u32 = u32::MAX;
+/// The same in pixels.
+const NO_LINE: f32 = 1e6;
 
 /// For each place the square of the distance to the nearest mark no more than `reach` rows and columns away, or [`FAR`]:
 /// along rows first, then along columns.
@@ -321,9 +403,15 @@ mod tests {
         let random = &mut Random(1);
         let (width, height) = (23, 17);
         let all = colors(random, width * height);
-        let weights = [1.0, 0.75, 0.5, 0.125];
-        let weight = |_: usize, at: usize, other: usize| weights.get(at.abs_diff(other)).copied().unwrap_or(0.0);
-        assert_eq!(bell_sums(&all, width, &weights), plain(&all, width, weight));
+        for reach in [0, 1, 3, 16, 30] {
+            let turn = std::f32::consts::PI / (reach + 1) as f32;
+            let bell = |away: usize| if away <= reach { 0.5 + 0.5 * (turn * away as f32).cos() } else { 0.0 };
+            let expected = plain(&all, width, |_, at, other| bell(at.abs_diff(other)));
+            for (sum, other) in bell_sums(&all, width, reach, turn.into()).into_iter().zip(expected) {
+                let near = |a: f32, b: f32| (a - b).abs() <= 1e-4 * (1.0 + b.abs());
+                assert!(near(sum.1, other.1) && near(sum.0.x, other.0.x), "{reach}: {sum:?}, {other:?}");
+            }
+        }
         for (side, first) in [(1, [0, 0]), (3, [2, 1]), (5, [0, 4]), (201, [150, 190]), (201, [0, 0])] {
             let weight = |axis: usize, at: usize, other: usize| {
                 let cell = |at: usize| (at + first[axis]) / side;

@@ -19,8 +19,8 @@ pub struct CutWords {
     /// Where the words of its body are: the number of members, then for each its instance, then where the body's surface
     /// is for caps that show its own colours (see [`push_own`]), or [`NONE`].
     pub body: u32,
-    /// Where those are of what closes it: the number of those who do, then for each its rank, a `CAP_...` constant, and the
-    /// colour.
+    /// Where those are of what closes it: the number of those who do, then for each its rank, a `CAP_...` constant, the
+    /// colour, and which of the plan's filters draws the line around it, or [`NONE`].
     pub caps: u32,
     /// The instance that is the first of its group.
     pub group: u32,
@@ -53,7 +53,7 @@ pub fn push_cuts(scene: &Scene, plan: &Plan, uploaded: &SceneData, words: &mut V
                 .entry(place)
                 .or_insert_with(|| push_roles(scene, item, uploaded.primitive(item).0.middle, words));
             let group = members[*group].instance as u32;
-            cuts[*instance] = CutWords { body, caps: push_caps(item, words), group, roles, lids };
+            cuts[*instance] = CutWords { body, caps: push_caps(plan, item, words), group, roles, lids };
         }
     }
     cuts
@@ -99,16 +99,17 @@ fn push_roles(scene: &Scene, item: &Item, middle: Vec3, words: &mut Vec<u32>) ->
     at
 }
 
-fn push_caps(item: &Item, words: &mut Vec<u32>) -> u32 {
+fn push_caps(plan: &Plan, item: &Item, words: &mut Vec<u32>) -> u32 {
     if item.caps.is_empty() {
         return NONE;
     }
     let first = words.len() as u32;
     words.push(item.caps.len() as u32);
-    for (rank, cap) in &item.caps {
-        let (kind, color) = cap.look();
-        words.extend([*rank as u32, kind]);
+    for cap in &item.caps {
+        let (kind, color) = cap.look.look();
+        words.extend([cap.maker as u32, kind]);
         words.extend(color.map(f32::to_bits));
+        words.push(plan.outline(cap).map_or(NONE, |op| op as u32));
     }
     first
 }

@@ -91,7 +91,8 @@ pub struct Pipelines {
 pub struct ScreenPipelines {
     /// Of filters that take means.
     pub means: Vec<wgpu::ComputePipeline>,
-    pub edges: Vec<wgpu::ComputePipeline>,
+    /// Of those that draw lines.
+    pub lines: Vec<wgpu::ComputePipeline>,
     pub finish: wgpu::RenderPipeline,
 }
 
@@ -153,7 +154,7 @@ impl Pipelines {
             let compute = |entry| compute_pipeline(&store.device, &module, &layout, entry);
             ScreenPipelines {
                 means: ["sum_rows", "sum_columns"].map(compute).into(),
-                edges: ["mark_edges", "find_in_rows", "draw_edges"].map(compute).into(),
+                lines: ["mark_lines", "find_in_rows", "draw_lines"].map(compute).into(),
                 finish: picture_pipeline(&store.device, &module, &layout, ("window_vertex", "finish"), store.target),
             }
         };

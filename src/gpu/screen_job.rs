@@ -3,7 +3,6 @@
 use super::pipelines::ScreenPipelines;
 use super::targets::ScreenTargets;
 use super::{Error, Window, alloc, bindings};
-use crate::appearance as wgsl;
 use crate::plan::Plan;
 
 /// Passes that filter each sample of a window, between its resolve and the picture.
@@ -11,8 +10,18 @@ use crate::plan::Plan;
 pub struct ScreenJob {
     pipelines: ScreenPipelines,
     group: wgpu::BindGroup,
-    /// For each step, the pipelines of its passes and where its record stands.
-    steps: Vec<(Vec<wgpu::ComputePipeline>, u32)>,
+    steps: Vec<Step>,
+}
+
+/// A filter's work.
+#[derive(Debug)]
+struct Step {
+    /// Of its passes, in this order.
+    pipelines: Vec<wgpu::ComputePipeline>,
+    /// Where its record stands.
+    record: u32,
+    /// Pixels of a line that an invocation of a filter that takes means reads; `None`: each invocation sees to a pixel.
+    stretch: Option<u32>,
 }
 
 /// What a step's shaders are told: the filter, the rank of its lens, and nothing twice.
@@ -31,8 +40,10 @@ impl ScreenJob {
             (size_of::<StepRecord>() as u32).next_multiple_of(device.limits().min_storage_buffer_offset_alignment);
         let (mut records, mut steps) = (Vec::new(), Vec::new());
         for step in &plan.screen {
-            let is_edges = plan.ops[step.op].kind == wgsl::OP_EDGES.0;
-            steps.push((if is_edges { &pipelines.edges } else { &pipelines.means }.clone(), records.len() as u32));
+            let op = &plan.ops[step.op];
+            let (pipelines, stretch) =
+                if op.draws_lines() { (&pipelines.lines, None) } else { (&pipelines.means, Some(op.mean_side())) };
+            steps.push(Step { pipelines: pipelines.clone(), record: records.len() as u32, stretch });
             let record: StepRecord = [step.op as u32, step.rank as u32, 0, 0];
             records.extend_from_slice(bytemuck::bytes_of(&record));
             records.resize(records.len().next_multiple_of(stride as usize), 0);
@@ -70,14 +81,20 @@ impl ScreenJob {
         target: &wgpu::TextureView,
     ) {
         let [width, height] = window.size;
-        for (pipelines, record) in &self.steps {
-            for pipeline in pipelines {
+        for Step { pipelines, record, stretch } in &self.steps {
+            for (number, pipeline) in pipelines.iter().enumerate() {
+                let [across, down] = match stretch {
+                    None => [width.div_ceil(8), height.div_ceil(8)],
+                    // Squares of pixels may begin before the window and end behind it.
+                    Some(pixels) if number == 0 => [width / pixels + 2, height.div_ceil(64)],
+                    Some(pixels) => [width.div_ceil(64), height / pixels + 2],
+                };
                 let mut pass = encoder
                     .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("screen"), timestamp_writes: None });
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(1, plan, &[offset]);
                 pass.set_bind_group(2, &self.group, &[*record]);
-                pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+                pass.dispatch_workgroups(across, down, 1);
             }
         }
         let mut pass = super::job::begin_drawing(encoder, "picture", target, None);

@@ -118,7 +118,7 @@ impl ScreenTargets {
 
 /// Bytes of a `ScreenSample` of the shaders, with sets of so many words.
 pub fn sample_bytes(words: u32) -> u64 {
-    (36 + 2 * 4 * u64::from(words)).next_multiple_of(16)
+    (40 + 2 * 4 * u64::from(words)).next_multiple_of(16)
 }
 
 /// A storage buffer that passes write and may be copied from; `allowed`: the most bytes it may have.

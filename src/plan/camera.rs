@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::lenses::Placed;
 use super::{anchor, instances};
 use crate::InputError;
-use crate::scene::{Aabb, Camera, Scene};
+use crate::scene::{Aabb, Camera, FARTHEST, Scene};
 use crate::spec::{By, CameraPlace, ProjectionSpec, Spec};
 use crate::view::{Anchor, Merging, Projection, View};
 
@@ -19,8 +19,6 @@ const LEAST_MARGIN: f64 = 1e-4;
 const NEAREST: f64 = 1e-12;
 /// What double precision leaves of the eye's own coordinates.
 const EYE_ROUNDING: f64 = 1e-14;
-/// Farther than this single precision does not count.
-const FARTHEST: f64 = 1e36;
 /// Of what a scene's depth comes to, no more than so many pictures counts as what is drawn.
 const DEEPEST: f64 = 8.0;
 
@@ -83,7 +81,9 @@ fn fitting_distance(view: &View, bounds: &Aabb) -> f64 {
         let across = (offset.dot(view.right).abs() / (tan_y * aspect)).max(offset.dot(view.up).abs() / tan_y);
         across - offset.dot(view.forward)
     };
-    bounds.corners().into_iter().map(needed).fold(1e-9, f64::max) * 1.03
+    // Of a scene that is a point any distance shows as much.
+    let least = if bounds.size() == DVec3::ZERO { 1.0 } else { 0.0 };
+    bounds.corners().into_iter().map(needed).fold(least, f64::max) * 1.03
 }
 
 fn node_view(size: [u32; 2], name: &str, scene: &Scene) -> Result<View, (String, String)> {

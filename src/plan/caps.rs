@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Instance, Item, Lens, LensSet, Plan, Region};
+use super::{Instance, Item, ItemCap, Lens, LensSet, Plan, Region};
 use crate::appearance as wgsl;
 use crate::pieces::Edges;
 use crate::scene::{Closure, Scene};
@@ -52,13 +52,13 @@ pub(super) fn check(spec: &Spec, scene: &Scene, lenses: &[Lens], items: &mut [It
     for item in items.iter_mut().filter(|item| !item.caps.is_empty()) {
         let scope = item.scope;
         let is_there = |rank: usize, lens: &Lens| lens.by == By::Pixel && scope.contains(rank);
-        item.caps.retain(|(rank, _)| lenses.get(*rank).is_none_or(|lens| is_there(*rank, lens)));
+        item.caps.retain(|cap| lenses.get(cap.maker).is_none_or(|lens| is_there(cap.maker, lens)));
         let model = &scene.models[item.model];
         let closure = model.closure(item.mesh, 1.0);
         if let Some(fault) = Fault::of(&closure) {
-            for (rank, _) in &item.caps {
+            for cap in &item.caps {
                 let name = || with_edges(&model.node_label(item.node), &closure.edges);
-                told.entry((*rank, fault)).or_default().entry((item.model, item.node)).or_insert_with(name);
+                told.entry((cap.maker, fault)).or_default().entry((item.model, item.node)).or_insert_with(name);
             }
         }
         if closure.closed == 0 {
@@ -186,14 +186,14 @@ fn grouped(scene: &Scene, items: &[Item], instances: &[Instance], body: Body) ->
 }
 
 impl Item {
-    /// What the cap looks like that a lens or rule closes this with.
-    pub fn cap(&self, maker: usize) -> Option<Cap> {
-        self.caps.iter().find(|(rank, _)| *rank == maker).map(|(_, cap)| *cap)
+    /// What a lens or rule closes this with.
+    pub fn cap(&self, maker: usize) -> Option<&ItemCap> {
+        self.caps.iter().find(|cap| cap.maker == maker)
     }
 
     /// The lenses and rules that close it where they cut it.
     pub fn capped_by(&self) -> LensSet {
-        self.caps.iter().map(|(rank, _)| *rank).collect()
+        self.caps.iter().map(|cap| cap.maker).collect()
     }
 }
 
@@ -211,6 +211,15 @@ impl Plan {
     /// The lenses that do not act on the caps of a lens or rule: those below the lens. A rule has no place in the order.
     pub fn below_cap(&self, maker: usize) -> LensSet {
         if maker < self.lenses.len() { LensSet::below(maker) } else { LensSet::EMPTY }
+    }
+
+    /// The record, in [`Plan::ops`], of the line around a cap; `None` where it has none.
+    pub fn outline(&self, cap: &ItemCap) -> Option<usize> {
+        let own = match self.lenses.get(cap.maker) {
+            Some(lens) => &lens.ops,
+            None => &self.rules[cap.maker - self.lenses.len()].ops,
+        };
+        own.clone().find(|op| self.ops[*op].is_outline_of(cap.filter))
     }
 
     /// What closes an instance at a boundary, if anything does.

@@ -78,9 +78,19 @@ pub struct Item {
     /// How far its versions may lie from each other, scene units; 0 where there is but one.
     pub spread: f64,
     /// What the lenses and rules that erase it close it with, by rising rank; none where its node is not closed.
-    pub caps: Vec<(usize, Cap)>,
+    pub caps: Vec<ItemCap>,
     /// Some primitive of its node has caps: the node is shown whole or not at all.
     pub is_cut: bool,
+}
+
+/// What a lens or rule closes an item with where it cuts it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ItemCap {
+    /// The rank of the lens or rule.
+    pub maker: usize,
+    /// The place of the eraser among its filters.
+    pub filter: usize,
+    pub look: Cap,
 }
 
 impl Item {
@@ -289,33 +299,33 @@ impl<'a> Relation<'a> {
         }
         let moves = instances::moves(self.filters, subject);
         // The cap of the first filter that erases it.
-        let erased = |filters: &'a [Filter]| {
-            filters.iter().find_map(|f| match f {
-                Filter::Erase { nodes, materials, cap } => {
+        let erased = |first: usize| {
+            self.filters.iter().enumerate().skip(first).find_map(|(filter, f)| match f {
+                Filter::Erase { nodes, materials, cap, .. } => {
                     let matches = (nodes.is_empty() && materials.is_empty()) || subject.is_any(nodes, materials);
-                    matches.then_some(*cap)
+                    matches.then_some(cap.map(|look| ItemCap { maker: rank, filter, look }))
                 }
                 _ => None,
             })
         };
         let Some((show, shown)) = self.show else {
-            if let Some(cap) = erased(self.filters) {
+            if let Some(cap) = erased(0) {
                 item.removed_by.insert(rank);
-                item.caps.extend(cap.map(|cap| (rank, cap)));
+                item.caps.extend(cap);
             } else if moves {
                 item.movers.insert(rank);
             }
             return;
         };
         if shown == Some(item.content) {
-            match erased(&self.filters[show + 1..]) {
+            match erased(show + 1) {
                 None => {
                     item.shown_by.insert(rank);
                     if moves {
                         item.movers.insert(rank);
                     }
                 }
-                Some(cap) => item.caps.extend(cap.map(|cap| (rank, cap))),
+                Some(cap) => item.caps.extend(cap),
             }
         }
         // Whatever else is in the lens's scope makes room for what it shows.

@@ -35,7 +35,7 @@ pub use account::{Account, Undecided};
 pub use caps::{Body, Closing, Member};
 pub use decide::{Reason, commute};
 pub use instances::{Instance, Step};
-pub use items::{Content, Item, Selection};
+pub use items::{Content, Item, ItemCap, Selection};
 pub use lenses::{GlassRecord, Lens};
 pub use light::{LightRecord, Lighting};
 pub use op::{LegendEntry, LegendLook, Op, filter_name};

@@ -7,7 +7,7 @@ use crate::InputError;
 use crate::appearance as wgsl;
 use crate::custom::{Custom, Given};
 use crate::scene::{Aabb, CURVATURE, Scene};
-use crate::spec::{At, Color, Filter, Quantity, Spec, UvMapping, WireEdges};
+use crate::spec::{At, Color, Filter, Outline, Quantity, Spec, UvMapping, WireEdges};
 use crate::view::View;
 
 /// One appearance filter with its parameters; the layout of WGSL's `Op`.
@@ -67,6 +67,9 @@ pub enum LegendLook {
 
 const NONE: [f32; 4] = [0.0; 4];
 
+/// What counts as an edge between two caps: as for the filter `edges` by default.
+const OUTLINE_THRESHOLD: f32 = 0.1;
+
 impl Op {
     fn new(kind: naga_rust_rt::Scalar<u32>, a: [f32; 4], b: [f32; 4]) -> Self {
         Self { kind: kind.0, texture: 0, flags: 0, inner: 0, a, b, c: NONE }
@@ -112,7 +115,12 @@ impl Op {
 
     /// Whether it works on the finished picture.
     pub fn is_of_screen(&self) -> bool {
-        [wgsl::OP_EDGES.0, wgsl::OP_BLUR.0, wgsl::OP_PIXELATE.0].contains(&self.kind)
+        [wgsl::OP_EDGES.0, wgsl::OP_BLUR.0, wgsl::OP_PIXELATE.0, wgsl::OP_ERASE.0].contains(&self.kind)
+    }
+
+    /// Whether it draws the line around the caps of an eraser, which stands at a place among the filters of its lens.
+    pub fn is_outline_of(&self, filter: usize) -> bool {
+        self.kind == wgsl::OP_ERASE.0 && self.texture as usize == filter
     }
 
     /// Whether a fragment under this filter may let through what lies behind it.
@@ -153,7 +161,7 @@ impl<'a> Ops<'a> {
         let last_mover = filters.iter().rposition(|filter| filter.value.moves());
         for (place, filter) in filters.iter().enumerate() {
             let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
-            let record = self.record(&filter.value).map_err(|e| e.or_at(&self.spec.source, filter.span.clone()))?;
+            let record = self.record(place, &filter.value).map_err(|e| e.or_at(&self.spec.source, filter.span.clone()))?;
             if let Some(op) = record {
                 self.list.push(Op { inner, ..op });
             }
@@ -161,10 +169,15 @@ impl<'a> Ops<'a> {
         Ok(first..self.list.len())
     }
 
-    /// The record of an appearance filter; `None` for content filters, which act before any surface exists.
-    fn record(&mut self, filter: &Filter) -> Result<Option<Op>, InputError> {
+    /// The record of an appearance filter; `None` for content filters, which act before any surface exists: of an eraser
+    /// that of the line around its caps. `place`: among the filters of its lens or rule.
+    fn record(&mut self, place: usize, filter: &Filter) -> Result<Option<Op>, InputError> {
         let one = |a: f32| [a, 0.0, 0.0, 0.0];
         Ok(Some(match filter {
+            Filter::Erase { outline: Some(Outline { width, color }), .. } => Op {
+                texture: place as u32,
+                ..Op::new(wgsl::OP_ERASE, color.to_linear(), [*width, OUTLINE_THRESHOLD, 0.0, 0.0])
+            },
             Filter::Erase { .. }
             | Filter::Show(_)
             | Filter::Lod { .. }

@@ -29,7 +29,7 @@ impl OwnSurface {
     pub fn new(scene: &Scene, plan: &Plan, body: &Body) -> Option<Self> {
         let item = |member: usize| &plan.items[plan.instances[body.members[member].instance].item];
         let members = 0..body.members.len();
-        let is_shown = members.clone().any(|member| item(member).caps.iter().any(|(_, cap)| *cap == Cap::Own));
+        let is_shown = members.clone().any(|member| item(member).caps.iter().any(|cap| cap.look == Cap::Own));
         let has_parts = |item: &Item| {
             let texture = scene.materials[item.material].base_color_texture.texture;
             item.primitive_of(scene).colors.is_some() || texture != NO_TEXTURE

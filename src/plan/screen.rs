@@ -27,6 +27,16 @@ impl Plan {
 }
 
 impl Op {
+    /// Whether it draws lines on the finished picture; else, if it works on that, it takes means of its colours.
+    pub fn draws_lines(&self) -> bool {
+        [wgsl::OP_EDGES.0, wgsl::OP_ERASE.0].contains(&self.kind)
+    }
+
+    /// How many pixels of a line it reads at a time, if it takes means.
+    pub fn mean_side(&self) -> u32 {
+        wgsl::mean_side(self.shader()) as u32
+    }
+
     /// How far from a pixel it looks, in pixels.
     pub fn screen_reach(&self) -> u32 {
         wgsl::screen_reach(self.shader()) as u32

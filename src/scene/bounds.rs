@@ -4,7 +4,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DAffine3;
 
-use super::{Aabb, Model, Node, Primitive};
+use super::{Aabb, Model, Node, Primitive, object};
+use crate::InputError;
+
+/// Farther than this from the origin single precision leaves no room to compute with.
+pub(crate) const FARTHEST: f64 = 1e36;
+/// And of what is smaller than this nothing is left.
+const SMALLEST: f64 = 1e-30;
 
 /// World bounds of the primitives of one node, where it stood last.
 #[derive(Debug, Clone)]
@@ -55,6 +61,34 @@ impl Model {
         (0..self.nodes.len())
             .filter(|i| self.nodes[*i].is_shown())
             .fold(Aabb::EMPTY, |b, i| b.union(self.node_bounds(i)))
+    }
+
+    /// Fails for what single precision cannot draw: a node that is too far from the origin, a model that is too small.
+    pub(crate) fn check_bounds(&self) -> Result<(), InputError> {
+        const REMEDY: &str = "scale the model; `lenspeel info` tells its bounds";
+        let mut all = Aabb::EMPTY;
+        for (index, node) in self.nodes.iter().enumerate().filter(|(_, node)| node.is_shown()) {
+            let bounds = self.node_bounds(index);
+            let away = bounds.min.abs().max(bounds.max.abs()).max_element();
+            if !bounds.is_empty() && away > FARTHEST {
+                let label = object("node", index, Some(&node.name));
+                let message = format!(
+                    "{}: {label} reaches {away:.1e} units from the origin, and pictures reach {FARTHEST:e}",
+                    self.name
+                );
+                return Err(InputError::new(message).help(REMEDY));
+            }
+            all = all.union(bounds);
+        }
+        let size = if all.is_empty() { 0.0 } else { all.size().max_element() };
+        if size > 0.0 && size < SMALLEST {
+            let message = format!(
+                "{}: all of the model is {size:.1e} units large, and pictures show what is {SMALLEST:e} or larger",
+                self.name
+            );
+            return Err(InputError::new(message).help(REMEDY));
+        }
+        Ok(())
     }
 }
 

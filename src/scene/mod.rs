@@ -23,6 +23,7 @@ mod vertex_values;
 pub use across::{Across, EdgeKind, Edges};
 pub use animation::{Animation, Channel, Interpolation, Property};
 pub use bounds::BoundsCache;
+pub(crate) use bounds::FARTHEST;
 pub(crate) use budget::TO_TAKE_LESS;
 pub use budget::{Budget, OpenOptions};
 pub use closed::{Closure, ClosureCache, Enclosing};

@@ -99,6 +99,10 @@ impl Scene {
         if let Some(time) = &spec.scene.time {
             scene.pose(Some(time.value)).map_err(|e| e.or_at(&spec.source, time.span.clone()))?;
         }
+        for (number, model) in scene.models.iter().enumerate() {
+            let named = number.checked_sub(1).map_or(&file.span, |alternate| &spec.scene.alternates[alternate].1.span);
+            model.check_bounds().map_err(|e| e.or_at(&spec.source, named.clone()))?;
+        }
         Ok(scene)
     }
 

@@ -310,11 +310,13 @@ pub enum Filter {
     Points {
         size: f32,
     },
-    /// Removes what matches; both lists empty: everything. `cap` `None`: cut solids stay open.
+    /// Removes what matches; both lists empty: everything. `cap` `None`: cut solids stay open. `outline`: the line around
+    /// its caps.
     Erase {
         nodes: Vec<At<Pattern>>,
         materials: Vec<At<Pattern>>,
         cap: Option<Cap>,
+        outline: Option<Outline>,
     },
     Show(ShowWhat),
     /// A simplified version: this share of the triangles, above 0.
@@ -468,6 +470,20 @@ pub enum Cap {
     Color(Color),
     /// Slanted lines of the colour over a light ground.
     Hatch(Color),
+}
+
+/// The line around each cap of an eraser; it lies on the cap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outline {
+    /// Pixels.
+    pub width: f32,
+    pub color: Color,
+}
+
+impl Default for Outline {
+    fn default() -> Self {
+        Self { width: 1.5, color: Color::rgb(0, 0, 0) }
+    }
 }
 
 /// What `show` puts in place of the scene.

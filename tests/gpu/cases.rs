@@ -8,7 +8,7 @@ use lenspeel::scene::Scene;
 
 use crate::Test;
 use crate::agree::agree;
-use crate::scene::{ORTHOGRAPHIC, PANES, PERSPECTIVE, planned};
+use crate::scene::{ORTHOGRAPHIC, PANES, PERSPECTIVE, plan_of, planned};
 
 pub const ALL: &[(&str, Test)] = &[
     ("plain_scene", plain_scene),
@@ -205,8 +205,8 @@ fn soft_filters_of_the_screen(device: &Headless) -> Result<(), String> {
     for (camera, samples) in [(PERSPECTIVE, 4), (ORTHOGRAPHIC, 1)] {
         let (scene, plan) = planned(SIZE, samples, camera, &lenses.concat());
         check(device, &scene, &plan)?;
-        let (_, hard) = planned(SIZE, samples, camera, &lenses.concat().replace("soft", "priority = 0\n# "));
-        if agree(&on_cpu(&scene, &plan), &on_cpu(&scene, &hard)).is_ok() {
+        let (hard_scene, hard) = planned(SIZE, samples, camera, &lenses.concat().replace("soft", "priority = 0\n# "));
+        if agree(&on_cpu(&scene, &plan), &on_cpu(&hard_scene, &hard)).is_ok() {
             return Err("lenses that are not soft look the same".into());
         }
     }
@@ -222,12 +222,12 @@ fn kept_targets_of_the_screen(device: &Headless) -> Result<(), String> {
     // Sets of one word, none, sets of two.
     let one = lens(0, "\"edges\", { blur = { radius = 3 } }");
     let many: String = (0..33).map(|number| lens(number, if number == 32 { "\"pixelate\"" } else { "" })).collect();
-    let (scene, _) = planned(SIZE, 1, PERSPECTIVE, "");
+    let (mut scene, _) = planned(SIZE, 1, PERSPECTIVE, "");
     let mut renderer = device.renderer(&scene).map_err(|e| e.to_string())?;
     for (step, (size, lenses)) in
         [(SIZE, one.as_str()), (SIZE, ""), (SIZE, &many), (SIZE, &one), ([90, 40], &many)].into_iter().enumerate()
     {
-        let (_, plan) = planned(size, 1, PERSPECTIVE, lenses);
+        let plan = plan_of(&mut scene, size, 1, PERSPECTIVE, lenses);
         let options = RenderOptions::default();
         let kept = device.render_with(&mut renderer, &scene, &plan, options, &mut None).map_err(|e| e.to_string())?;
         let new = device.render(&scene, &plan, options).map_err(|e| e.to_string())?;

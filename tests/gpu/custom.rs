@@ -22,10 +22,10 @@ pub fn what_a_filter_makes_is_brought_into_range(device: &Headless) -> Result<()
     };
     let (scene, plan) = beyond(true);
     check(device, &scene, &plan)?;
-    let (_, to_the_end) = beyond(false);
-    agree(&on_cpu(&scene, &to_the_end), &on_cpu(&scene, &plan))?;
-    let (_, none) = filtered("{ opacity = { value = 0.5 } }", "");
-    match agree(&on_cpu(&scene, &none), &on_cpu(&scene, &plan)) {
+    let (clamped_scene, to_the_end) = beyond(false);
+    agree(&on_cpu(&clamped_scene, &to_the_end), &on_cpu(&scene, &plan))?;
+    let (plain_scene, none) = filtered("{ opacity = { value = 0.5 } }", "");
+    match agree(&on_cpu(&plain_scene, &none), &on_cpu(&scene, &plan)) {
         Ok(()) => Err("the filter changes nothing".to_owned()),
         Err(_) => Ok(()),
     }
@@ -36,8 +36,8 @@ pub fn a_soft_lens_fades_bent_normals(device: &Headless) -> Result<(), String> {
     let bumps = "{ wgsl = { file = \"lens-specs/wgsl/bumps.wgsl\", params = { height = 1 } } }";
     let (scene, soft) = filtered(bumps, "soft = 0.4\n");
     check(device, &scene, &soft)?;
-    let (_, hard) = filtered(bumps, "");
-    match agree(&on_cpu(&scene, &hard), &on_cpu(&scene, &soft)) {
+    let (hard_scene, hard) = filtered(bumps, "");
+    match agree(&on_cpu(&hard_scene, &hard), &on_cpu(&scene, &soft)) {
         Ok(()) => Err("the soft lens looks like one that is not".to_owned()),
         Err(_) => Ok(()),
     }

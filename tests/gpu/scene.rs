@@ -10,15 +10,20 @@ pub const PANES: usize = 12;
 
 /// The scene and a plan for `lenses` (TOML) over it.
 pub fn planned(size: [u32; 2], samples: u32, camera: &str, lenses: &str) -> (Scene, Plan) {
+    let mut scene = Scene::new(vec![model()], vec![]);
+    let plan = plan_of(&mut scene, size, samples, camera, lenses);
+    (scene, plan)
+}
+
+/// A plan for `lenses` (TOML) over a scene that there is already.
+pub fn plan_of(scene: &mut Scene, size: [u32; 2], samples: u32, camera: &str, lenses: &str) -> Plan {
     let text = format!(
         "[scene]\nfile = \"made-in-code.glb\"\n[camera]\n{camera}\n[image]\nsize = [{}, {}]\nsamples = {samples}\n{lenses}",
         size[0], size[1]
     );
     let spec = Spec::parse(&text, "spec of a test", "".as_ref()).expect("the test's spec is right");
-    let mut scene = Scene::new(vec![model()], vec![]);
     scene.prepare_filters(&spec).expect("the test's filters are right");
-    let plan = Plan::new(&spec, &scene).expect("the test's plan is right");
-    (scene, plan)
+    Plan::new(&spec, scene).expect("the test's plan is right")
 }
 
 pub const PERSPECTIVE: &str = "eye = [2.1, 1.6, 2.7]\ntarget = [0, 0.1, 0]\nfov_y = 40";

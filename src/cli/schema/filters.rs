@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::kinds::{cap, described, number, numbers, patterns, reference, table, text, vector};
+use super::kinds::{cap, described, number, numbers, outline, patterns, reference, table, text, vector};
 use crate::color_map;
 use crate::spec::NumberRange;
 use crate::spec::catalogue::{FILTERS, FilterRow, Param, ParamDefault, ParamKind};
@@ -68,6 +68,7 @@ fn kind(kind: ParamKind) -> Value {
         }
         ParamKind::Patterns => patterns(),
         ParamKind::Cap => cap(),
+        ParamKind::Outline => outline(),
         ParamKind::FreeTable => json!({ "type": "object" }),
     }
 }

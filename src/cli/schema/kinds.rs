@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::spec::NumberRange;
+use crate::spec::catalogue::LINE_WIDTH;
+use crate::spec::{NumberRange, Outline};
 
 pub fn number(range: NumberRange) -> Value {
     let mut schema = json!({ "type": "number" });
@@ -55,6 +56,15 @@ pub fn cap() -> Value {
         "type": "string",
         "pattern": "^(own|hatch|(hatch +)?(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?|[a-zA-Z]+))$",
     })
+}
+
+pub fn outline() -> Value {
+    let default = Outline::default();
+    let properties = json!({
+        "width": described(number(LINE_WIDTH), "Pixels.", default.width.into()),
+        "color": described(reference("color"), "Of the line.", default.color.to_string().into()),
+    });
+    table(&[], properties)
 }
 
 pub fn rotation() -> Value {

@@ -22,13 +22,16 @@ impl Tracer<'_> {
         ray: &Ray,
         pixel: &wgsl::PixelRay,
     ) -> Vec3 {
-        // All of a cap lies in a lens's surface.
-        if contacts.is_empty() || cap_maker(fragment.triangle).is_some() {
+        if contacts.is_empty() {
             return color;
         }
         let item = self.item(fragment.instance);
         let there = item.scope | item.shown_by;
-        let normal = self.shader.geometric_normal(fragment);
+        // All of a cap lies in a lens's surface, and finds no line there but that of other surfaces.
+        let normal = match cap_maker(fragment.triangle) {
+            Some(_) => fragment.weights,
+            None => self.shader.geometric_normal(fragment),
+        };
         let lenses = contacts.chunk_by(|a, b| a.rank == b.rank).filter(|contacts| there.contains(contacts[0].rank));
         lenses.fold(color, |color, contacts| {
             let lens = &self.plan.lenses[contacts[0].rank];

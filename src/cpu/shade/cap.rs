@@ -18,7 +18,7 @@ impl Shader<'_> {
         let item = &self.plan.items[instance.item];
         let normal = fragment.weights;
         let position = g3(ray.origin) + g3(ray.direction) * fragment.depth;
-        let look = item.cap(maker).unwrap_or(Cap::Own);
+        let look = item.cap(maker).map_or(Cap::Own, |cap| cap.look);
         let own = match look {
             Cap::Own => self.own_surface(fragment.instance, position, normal, ray),
             _ => untextured(&self.scene.materials[item.material], position, normal, ray),

@@ -6,7 +6,7 @@ mod shapes;
 
 use std::fmt;
 
-pub use rows::FILTERS;
+pub use rows::{FILTERS, LINE_WIDTH};
 pub use shapes::{SHAPES, ShapeRow, shape};
 
 use super::NumberRange;
@@ -65,6 +65,8 @@ pub enum ParamKind {
     Patterns,
     /// What closes a cut solid.
     Cap,
+    /// The line around what closes it.
+    Outline,
     /// A table whose keys the filter's own file declares.
     FreeTable,
 }
@@ -134,6 +136,7 @@ impl fmt::Display for ParamKind {
             Self::ColorMap => write!(f, "{}; with -r behind it, reversed", color_map::NAMES.join(" | ")),
             Self::Patterns => write!(f, "list of patterns"),
             Self::Cap => write!(f, "colour, \"own\", \"hatch\" or \"hatch COLOUR\""),
+            Self::Outline => write!(f, "{{ width, color }}"),
             Self::FreeTable => write!(f, "table"),
         }
     }

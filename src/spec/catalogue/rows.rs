@@ -3,7 +3,7 @@
 use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
 use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
 use super::ParamKind::{
-    Bool, Cap, Choice, Color, ColorMap, File, FreeTable, Integer, Interval, Number, NumberOrPair, Patterns, Text,
+    Bool, Cap, Choice, Color, ColorMap, File, FreeTable, Integer, Interval, Number, NumberOrPair, Outline, Patterns, Text,
     Vector,
 };
 use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
@@ -11,8 +11,9 @@ use crate::spec::NumberRange;
 
 const PIXELS: ParamKind = Number(NumberRange::closed(0.0, 1000.0));
 const LINE_PIXELS: ParamKind = Number(NumberRange::closed(1.0, 1000.0));
-/// How far a filter of the finished picture may look.
-const SCREEN_PIXELS: ParamKind = Number(NumberRange::closed(0.0, 100.0));
+/// How far a filter of the finished picture may look, and how wide its lines may be, in pixels.
+pub const LINE_WIDTH: NumberRange = NumberRange::closed(0.0, 100.0);
+const SCREEN_PIXELS: ParamKind = Number(LINE_WIDTH);
 const UNIT: ParamKind = Number(NumberRange::UNIT);
 const OWN: ParamDefault = Meaning("the surface's own");
 const FITTED: ParamDefault = Meaning("fitted to what is seen");
@@ -82,6 +83,7 @@ const ERASE: &[Param] = &[
     param("nodes", Patterns, EVERYTHING, "nodes that go"),
     param("materials", Patterns, EVERYTHING, "materials that go"),
     param("cap", Cap, Meaning("open"), "closes cut solids: in a colour, their own or hatched"),
+    param("outline", Outline, Meaning("none"), "a line around each cap; width in pixels"),
 ];
 const SHOW: &[Param] = &[
     param("alternate", Text, Meaning("the scene, of which give nodes"), "a name under [scene.alternates]"),

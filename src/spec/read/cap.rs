@@ -1,9 +1,11 @@
-//! The `cap` of an eraser: `"own"`, a colour, `"hatch"` or `"hatch COLOUR"`.
+//! The `cap` of an eraser: `"own"`, a colour, `"hatch"` or `"hatch COLOUR"`; and the `outline` of its caps.
 
 use super::item::Item;
-use super::{color, suggest};
+use super::table::Table;
+use super::{color, keys, suggest};
 use crate::InputError;
-use crate::spec::{Cap, Color};
+use crate::spec::catalogue::LINE_WIDTH;
+use crate::spec::{Cap, Color, Outline};
 
 /// The lines of a hatch that names no colour: ink on paper.
 const INK: Color = Color::rgb(0x3a, 0x46, 0x55);
@@ -22,6 +24,16 @@ pub fn read(item: &Item) -> Result<Cap, InputError> {
         let near = suggest::nearest(word, known).or_else(|| color::nearest(word));
         let help = near.map_or_else(|| WANTED.to_owned(), |near| format!("did you mean \"{start}{near}\"?"));
         item.error(format!("{} is no colour, \"own\" or hatch: \"{text}\"", item.called())).help(help)
+    })
+}
+
+/// A table; what is left out has a default.
+pub fn outline(item: &Item) -> Result<Outline, InputError> {
+    let table = Table::open(item, "`outline`", keys::OUTLINE)?;
+    let default = Outline::default();
+    Ok(Outline {
+        width: table.read("width", |item: &Item| item.number32(LINE_WIDTH)).unwrap_or(default.width),
+        color: table.read("color", Item::color).unwrap_or(default.color),
     })
 }
 

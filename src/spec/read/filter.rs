@@ -13,7 +13,7 @@ use crate::InputError;
 use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
+use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Outline, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +27,7 @@ enum Value {
     File(At<PathBuf>),
     Patterns(Vec<At<Pattern>>),
     Cap(Cap),
+    Outline(Outline),
     /// Checked against the filter's own file.
     Free(Vec<Given>),
 }
@@ -189,6 +190,13 @@ impl<'a> Params<'a> {
         }
     }
 
+    fn outline(&self, name: &str) -> Option<Outline> {
+        match self.get(name)? {
+            Value::Outline(outline) => Some(*outline),
+            _ => None,
+        }
+    }
+
     fn text(&self, name: &str) -> Option<At<String>> {
         match self.get(name)? {
             Value::Text(text) => Some(text.clone()),
@@ -251,6 +259,7 @@ fn read(kind: ParamKind, item: &Item) -> Result<Value, InputError> {
         ParamKind::Patterns => Value::Patterns(item.patterns()?),
         ParamKind::Vector => Value::Vector(item.vector()?),
         ParamKind::Cap => Value::Cap(cap::read(item)?),
+        ParamKind::Outline => Value::Outline(cap::outline(item)?),
         ParamKind::FreeTable => Value::Free(free_table(item)?),
     })
 }
@@ -304,11 +313,7 @@ fn color_map<'a>(item: &Item<'a>) -> Result<&'a str, InputError> {
 fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
     let filter = match row.name {
         "wireframe" => wireframe(params),
-        "erase" => Some(Filter::Erase {
-            nodes: params.patterns("nodes").unwrap_or_default(),
-            materials: params.patterns("materials").unwrap_or_default(),
-            cap: params.cap("cap"),
-        }),
+        "erase" => Some(erase(params)?),
         "show" => Some(Filter::Show(show(params)?)),
         "lod" => params.number("ratio").map(|ratio| Filter::Lod { ratio }),
         "magnify" => params.double("factor").map(|factor| Filter::Magnify { factor, center: params.vector("center") }),
@@ -340,6 +345,16 @@ fn build(row: &FilterRow, params: &Params) -> Result<Filter, InputError> {
         _ => None,
     };
     filter.ok_or_else(|| params.error(format!("filter `{}` cannot be made from its catalogue row", row.name)))
+}
+
+fn erase(params: &Params) -> Result<Filter, InputError> {
+    let (cap, outline) = (params.cap("cap"), params.outline("outline"));
+    if outline.is_some() && cap.is_none() {
+        let error = params.error("`outline` of filter `erase` goes around caps, and there are none".to_owned());
+        return Err(error.help("give it a `cap`, such as { erase = { cap = \"own\", outline = { width = 1.5 } } }"));
+    }
+    let [nodes, materials] = ["nodes", "materials"].map(|name| params.patterns(name).unwrap_or_default());
+    Ok(Filter::Erase { nodes, materials, cap, outline })
 }
 
 fn wireframe(params: &Params) -> Option<Filter> {

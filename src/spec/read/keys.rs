@@ -30,6 +30,7 @@ pub const LENS: &[&str] = &[
 pub const ATTACH: &[&str] = &["node"];
 pub const MATCHES: &[&str] = &["nodes", "materials"];
 pub const GLASS: &[&str] = &["color", "opacity", "rim", "outline", "contact"];
+pub const OUTLINE: &[&str] = &["width", "color"];
 pub const OVERLAP: &[&str] = &["when", "filters"];
 pub const ANIMATION: &[&str] = &["duration", "fps", "track"];
 pub const TRACK: &[&str] = &["target", "keys", "ease"];

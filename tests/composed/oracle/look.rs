@@ -7,7 +7,7 @@ use super::solid::hit;
 use super::view::{Ray, View};
 use super::walk::{Act, Actor, Composition, Met, Outcome, Subject};
 use super::{names, place};
-use crate::case::{Cap, Case, Filter, Shape};
+use crate::case::{Cap, Case, Filter};
 
 /// Surfaces closer than this share of the depth to a boundary or to each other, at least of one unit, are in doubt.
 pub const DOUBT: f64 = 1e-4;
@@ -29,8 +29,8 @@ pub struct Stage<'a> {
     pub subjects: Vec<Subject>,
     candidates: Vec<Candidate>,
     pub bodies: Vec<Body>,
-    /// The largest depth of a corner of a scene's triangle in its place.
-    farthest: f64,
+    /// The smallest and the largest depth of a corner of the scene's triangles in their places.
+    scene: [f64; 2],
 }
 
 /// A fragment on a ray.
@@ -65,15 +65,17 @@ impl<'a> Stage<'a> {
         let composition = Composition::new(case, &view);
         let subjects = subjects(case, &composition);
         let movers = composition.movers();
-        let placed = |subject: &Subject| {
-            let node = &case.models[subject.model].nodes[subject.node];
-            let world = place::of_node(&case.models[subject.model], subject.node);
-            let corners = node.primitives.iter().flat_map(|p| p.triangles.iter().flatten());
-            corners.map(|p| (world.transform_point3(*p) - view.eye).dot(view.forward)).fold(f64::NEG_INFINITY, f64::max)
+        let depths = |subject: &Subject| {
+            let model = &case.models[subject.model];
+            let world = place::of_node(model, subject.node);
+            let corners = model.nodes[subject.node].primitives.iter().flat_map(|p| p.triangles.iter().flatten());
+            let depths = corners.map(|p| (world.transform_point3(*p) - view.eye).dot(view.forward));
+            depths.collect::<Vec<f64>>()
         };
-        let farthest = subjects.iter().map(placed).fold(f64::NEG_INFINITY, f64::max);
-        let mut stage =
-            Self { case, view, composition, subjects, candidates: Vec::new(), bodies: Vec::new(), farthest };
+        let scene = subjects.iter().flat_map(depths).fold([f64::INFINITY, f64::NEG_INFINITY], |range, depth| {
+            [range[0].min(depth), range[1].max(depth)]
+        });
+        let mut stage = Self { case, view, composition, subjects, candidates: Vec::new(), bodies: Vec::new(), scene };
         for subject in 0..stage.subjects.len() {
             for chain in 0..1usize << movers.len() {
                 let moves = (0..movers.len()).filter(|i| chain >> i & 1 == 1).map(|i| movers[i]).collect();
@@ -173,25 +175,17 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Whether the end of a flat lens on a ray may lie beyond a fitted far plane: how far that is, is not said.
-    pub fn may_pass_far(&self, ray: &Ray) -> bool {
-        let ends_late = |lens: &&super::walk::Lens| {
-            lens.solid.has_flat_part() && lens.boundaries(ray).iter().any(|depth| *depth > self.farthest)
+    /// Whether a fitted plane of the camera may leave a boundary of a lens that goes on for ever out of the picture: such
+    /// lenses do not move it, and how far beyond the scene it lies, is not said.
+    pub fn may_be_left_out(&self, ray: &Ray) -> bool {
+        let [nearest, farthest] = self.scene;
+        let is_beyond = |depth: &f64| {
+            *depth >= self.view.near
+                && (self.case.camera.near.is_none() && *depth < nearest
+                    || self.case.camera.far.is_none() && *depth > farthest)
         };
-        self.case.camera.far.is_none() && self.composition.lenses.iter().find(ends_late).is_some()
-    }
-
-    /// Whether some lens has no bounds and a plane of the camera is fitted, which does not reach for it: where, is not said.
-    pub fn may_leave_lenses_out(&self) -> bool {
-        fn goes_on(shape: &Shape) -> bool {
-            match shape {
-                Shape::Plane { .. } => true,
-                Shape::Compound(_, parts) => parts.iter().any(goes_on),
-                _ => false,
-            }
-        }
-        let is_fitted = self.case.camera.near.is_none() || self.case.camera.far.is_none();
-        is_fitted && self.case.lenses.iter().any(|lens| goes_on(&lens.shape))
+        let endless = self.composition.lenses.iter().filter(|lens| lens.solid.has_endless_part());
+        endless.flat_map(|lens| lens.boundaries(ray)).any(|depth| is_beyond(&depth))
     }
 
     /// Where lenses begin and end along a ray between near and far, nearest first.

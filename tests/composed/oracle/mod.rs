@@ -126,7 +126,7 @@ impl<'a> Oracle<'a> {
     /// The number of layers of a ray, unless two boundaries are nearly one.
     fn layers(&self, x: f64, y: f64) -> Option<usize> {
         let ray = self.stage.view.ray(x, y);
-        if self.stage.may_pass_far(&ray) || self.stage.may_leave_lenses_out() {
+        if self.stage.may_be_left_out(&ray) {
             return None;
         }
         let boundaries = self.stage.boundaries(&ray);

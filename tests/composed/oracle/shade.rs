@@ -128,12 +128,13 @@ fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], edges: 
         let Filter::Wireframe { width, color, filled } = filter else { continue };
         // Whether a magnifier above makes the lines wider is not said: both count as a rim.
         let widest = width * magnified(stage, met);
-        // Where the surface turns away, lines of its neighbours may reach over this triangle's corners: only the inner half is sure.
-        let least = 0.5 * width;
+        let least = |edge: &Edge| if edge.goes_on == Some(false) { *width } else { 0.5 * width };
         let most = |edge: &Edge| if edge.goes_on == Some(true) { 0.5 * widest } else { widest };
+        // A line that grows inwards from a border may reach over a triangle that meets the border with a corner alone.
+        let is_off = |edge: &Edge| edge.away > most(edge) + RIM && edge.end_away > widest + RIM;
         let on_wire = match edges {
-            edges if edges.iter().any(|edge| edge.away < least - RIM) => Some(true),
-            edges if edges.iter().all(|edge| edge.away > most(edge) + RIM) => Some(false),
+            edges if edges.iter().any(|edge| edge.away < least(edge) - RIM) => Some(true),
+            edges if edges.iter().all(is_off) => Some(false),
             _ => None,
         };
         match on_wire {
@@ -150,8 +151,9 @@ fn wired(stage: &Stage, met: &Met, mut shade: Shade, filters: &[Acting], edges: 
 
 /// An edge of a triangle as it is shown.
 struct Edge {
-    /// Pixels from a place of the picture.
+    /// Pixels from a place of the picture to it, and to its first end.
     away: f64,
+    end_away: f64,
     /// Whether the picture shows another triangle of the mesh beyond it; `None` where that is not sure.
     goes_on: Option<bool>,
 }
@@ -174,7 +176,7 @@ fn edges(stage: &Stage, hit: &Hit, met: &Met, [x, y]: [f64; 2]) -> Vec<Edge> {
             [other] if other.abs() > 0.1 && own.abs() > 0.1 => Some(other * own < 0.0),
             _ => None,
         };
-        Edge { away: side([x, y]).abs(), goes_on }
+        Edge { away: side([x, y]).abs(), end_away: (x - p[0]).hypot(y - p[1]), goes_on }
     };
     (0..3).map(edge).collect()
 }

@@ -173,10 +173,12 @@ fn newell(corners: &[DVec3]) -> DVec3 {
 }
 
 impl Solid {
-    pub fn has_flat_part(&self) -> bool {
+    /// Whether some of it goes on for ever: no fewer than four planes bound anything.
+    pub fn has_endless_part(&self) -> bool {
         match self {
             Solid::Flat { .. } => true,
-            Solid::Compound(_, parts) => parts.iter().any(Solid::has_flat_part),
+            Solid::Planes(planes) => planes.len() < 4,
+            Solid::Compound(_, parts) => parts.iter().any(Solid::has_endless_part),
             _ => false,
         }
     }
