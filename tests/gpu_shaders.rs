@@ -104,7 +104,8 @@ fn every_module_is_valid_without_what_a_plan_does_not_need() {
         for needs in NEEDS {
             let whole = parsed(module, needs);
             let count = |module: &naga::Module| module.functions.len();
-            let pruned = lenspeel::gpu::pruned(whole.clone());
+            let entries: Vec<&str> = whole.entry_points.iter().map(|entry| entry.name.as_str()).collect();
+            let pruned = lenspeel::gpu::pruned(whole.clone(), &entries);
             assert!(needs == MOST || count(&pruned) < count(&whole), "{} stays whole", module.name());
             assert_eq!(pruned.entry_points.len(), whole.entry_points.len());
             let all = naga::valid::ValidationFlags::all();

@@ -41,7 +41,8 @@ impl Plane {
         let along = |number: u32| (f64::from(number) + 0.5) / f64::from(side);
         let zero = v3(glam::Vec3::ZERO);
         let seen = wgsl::Seen { found: 0, depth: 0.0, position: zero, normal: zero, span: 0.0 };
-        let nothing = Point { seen, instance: 0, is_cap: false, outline: None, set: LensSet::EMPTY, stack: LensSet::EMPTY };
+        let nothing =
+            Point { seen, instance: 0, is_cap: false, outline: None, set: LensSet::EMPTY, stack: LensSet::EMPTY };
         let count = rect.area() as usize;
         let at = [along(sample % side), along(sample / side)];
         Self { rect, at, colors: vec![Vec4::ZERO; count], seen: vec![nothing; count] }

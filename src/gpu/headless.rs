@@ -143,9 +143,8 @@ impl Headless {
         plan: &Plan,
         window: Window,
     ) -> Result<Vec<Vec<LayerStart>>, Error> {
-        let options = RenderOptions { aovs: true, ..RenderOptions::default() };
         loop {
-            let job = renderer.prepare(&self.device, scene, plan, window, options)?;
+            let job = renderer.prepare_layers(&self.device, scene, plan, window)?;
             let mut encoder = self.encoder();
             for sample in job.samples.iter().filter(|sample| sample.maps) {
                 job.encode_layers(&mut encoder, sample);

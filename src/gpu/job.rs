@@ -35,7 +35,8 @@ pub struct Job {
     pub compute: ComputeSteps,
     /// Those that give accounts of pixels.
     pub accounts: Arc<Pipelines>,
-    pub resolve: ResolvePipelines,
+    /// `None` where no picture is drawn.
+    pub resolve: Option<ResolvePipelines>,
     /// Filters of the screen, where there are some.
     pub screen: Option<ScreenJob>,
     pub targets: Arc<Targets>,
@@ -166,9 +167,9 @@ impl Job {
     /// Composites each pixel's fragments into a target as large as the window, where the picture stands after the last
     /// sample; writes the maps where this is the sample for them.
     pub fn encode_resolve(&self, encoder: &mut wgpu::CommandEncoder, sample: &Sample, target: &wgpu::TextureView) {
-        match &self.resolve {
-            _ if !sample.colors => {}
-            ResolvePipelines::Tiles { inside, outside } => {
+        match self.resolve.as_ref().filter(|_| sample.colors) {
+            None => {}
+            Some(ResolvePipelines::Tiles { inside, outside }) => {
                 let mut pass = begin_drawing(encoder, "resolve", target, None);
                 pass.set_bind_group(0, &self.groups.scene, &[]);
                 pass.set_bind_group(1, &self.groups.plan, &[self.offset(sample, 0)]);
@@ -179,7 +180,7 @@ impl Job {
                 pass.set_pipeline(outside);
                 pass.draw(0..4, active..count);
             }
-            ResolvePipelines::Sample(pipeline) => {
+            Some(ResolvePipelines::Sample(pipeline)) => {
                 self.encode_pixels(encoder, sample, pipeline, &self.groups.resolve);
                 if let Some(screen) = &self.screen {
                     screen.encode(encoder, &self.groups.plan, self.offset(sample, 0), &self.window, target);

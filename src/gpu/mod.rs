@@ -34,6 +34,7 @@ mod records;
 mod renderer;
 mod room;
 mod screen_job;
+mod shader;
 mod shaders;
 mod storage;
 mod targets;

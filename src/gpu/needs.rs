@@ -1,6 +1,5 @@
 //! What the shaders of a plan must be able to do.
 
-use super::Engine;
 use super::cells::{has_planes, is_convex};
 use super::program::condition;
 use crate::appearance::FILTERS;
@@ -21,7 +20,7 @@ pub struct Needs {
     pub part_words: u32,
     /// There are lenses or rules.
     pub lenses: bool,
-    /// Rays are cut into layers: a pixel may ask for the lenses around many depths. Else fragments ask the lenses of their
+    /// Rays are cut into layers, as a pixel may ask for the lenses around many depths. Else fragments ask the lenses of their
     /// tile themselves.
     pub layers: bool,
     /// Some lens takes something away, or shows something.
@@ -71,7 +70,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    pub fn of(scene: &Scene, plan: &Plan, engine: Engine, large: &[bool]) -> Self {
+    pub fn of(scene: &Scene, plan: &Plan, large: &[bool]) -> Self {
         let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
         let parts = plan.lenses.iter().map(|lens| lens.volume.parts.len());
         let names = plan.rules.iter().map(|rule| condition(&rule.when).0.len());
@@ -88,7 +87,7 @@ impl Needs {
             set_words: words(plan.lenses.len() + plan.rules.len()),
             part_words: words(parts.chain(names).max().unwrap_or(1)),
             lenses: !plan.lenses.is_empty() || !plan.rules.is_empty(),
-            layers: engine == Engine::Peel || asks_often,
+            layers: asks_often,
             taken_away,
             compounds,
             forms: has_forms(plan),
@@ -142,51 +141,15 @@ impl Needs {
         }
     }
 
-    /// The same for passes that find fragments and shade none.
-    pub fn without_shading(self) -> Self {
-        Self {
-            glass: false,
-            contact: false,
-            textures: false,
-            vertex_colors: false,
-            lights: 0,
-            stages: [false; 3],
-            filters: 0,
-            quantities: false,
-            hidden_lines: false,
-            screen: false,
-            ..self
-        }
-    }
-
-    /// The same for passes over the finished picture, which know nothing but sets and, where a lens is soft, how deep
-    /// inside it something is.
-    pub fn for_screen(self) -> Self {
-        let sets = Self {
-            part_words: 1,
-            lenses: true,
-            layers: false,
-            taken_away: false,
-            compounds: false,
-            forms: [false; 4],
-            movers: false,
-            versions: false,
-            caps: false,
-            soft: false,
-            translucent: false,
-            in_planes: false,
-            ..self.without_shading()
-        };
-        if !self.soft {
-            return sets;
-        }
-        let Self { part_words, compounds, forms, movers, .. } = self;
-        Self { part_words, compounds, forms, movers, soft: true, ..sets }
-    }
-
-    /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything.
+    /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything: shaders
+    /// ask the records of lenses and items besides.
     pub fn for_accounts(self) -> Self {
         Self {
+            forms: [true; 4],
+            movers: true,
+            versions: true,
+            soft: true,
+            in_planes: true,
             lenses: true,
             layers: true,
             taken_away: true,

@@ -1,6 +1,5 @@
 //! Compiled pipelines.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -8,8 +7,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::bindings::Layouts;
 use super::draws::Culling;
 use super::item_data::item_stride;
-use super::prune::pruned;
 use super::records::ItemRecord;
+use super::shader::{Shader, ShaderKey};
 use super::{Module, Needs, source};
 
 /// Formats of what the visibility pass draws into.
@@ -42,48 +41,78 @@ impl Program {
     }
 }
 
-/// What shaders are compiled for: what a plan needs, and the text of the user's own filters.
+/// What shaders are written for: what a plan needs, and the text of the user's own filters.
 type Variant = (Needs, Arc<str>);
 
+/// A compute pipeline, by its shader and entry point.
+type ComputeKey = (ShaderKey, &'static str);
+/// One that draws: its shader, the entry points of vertices and fragments, how it culls, and the stride of items.
+type RenderKey = (ShaderKey, [&'static str; 2], Culling, u64);
+type Kept<K, P> = Mutex<BTreeMap<K, Arc<OnceLock<P>>>>;
+
 /// Compiles pipelines when they are first needed and keeps them: for any number of scenes on one device.
+///
+/// Plans of different needs share what comes out alike once what they do not need is taken out of a shader.
 #[derive(Debug)]
 pub struct PipelineStore {
     pub layouts: Layouts,
     /// Of the views that pictures are drawn into.
     pub target: wgpu::TextureFormat,
     device: wgpu::Device,
-    kept: Mutex<BTreeMap<Variant, Arc<Pipelines>>>,
+    variants: Mutex<BTreeMap<Variant, Arc<Pipelines>>>,
+    compute: Kept<ComputeKey, wgpu::ComputePipeline>,
+    render: Kept<RenderKey, wgpu::RenderPipeline>,
 }
 
 impl PipelineStore {
     pub fn new(device: &wgpu::Device, target: wgpu::TextureFormat) -> Self {
-        Self { layouts: Layouts::new(device), target, device: device.clone(), kept: Mutex::default() }
+        Self {
+            layouts: Layouts::new(device),
+            target,
+            device: device.clone(),
+            variants: Mutex::default(),
+            compute: Mutex::default(),
+            render: Mutex::default(),
+        }
     }
 
     /// The pipelines for plans with the same needs and filters of the user's own, as WGSL.
     pub fn get(&self, needs: Needs, custom: &Arc<str>) -> Arc<Pipelines> {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut variants = self.variants.lock().unwrap_or_else(PoisonError::into_inner);
         let new = || Arc::new(Pipelines::new(needs, Arc::clone(custom)));
-        kept.entry((needs, Arc::clone(custom))).or_insert_with(new).clone()
+        variants.entry((needs, Arc::clone(custom))).or_insert_with(new).clone()
+    }
+
+    fn layout(&self, module: Module) -> wgpu::PipelineLayout {
+        let Layouts { scene, plan, layers, visibility, resolve, screen } = &self.layouts;
+        let (scene, work) = match module {
+            Module::Layers => (Some(scene), layers),
+            Module::Visibility | Module::Caps => (Some(scene), visibility),
+            Module::Resolve | Module::Aov | Module::Explain => (Some(scene), resolve),
+            // Nothing of the scene.
+            Module::Screen => (None, screen),
+        };
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(module.name()),
+            bind_group_layouts: &[scene, Some(plan), Some(work)],
+            immediate_size: 0,
+        })
     }
 }
 
-/// Pipelines for all plans with the same needs, and any scene.
+/// The one that is kept, or a new one. Others may be made meanwhile.
+fn kept<K: Ord, P: Clone>(all: &Kept<K, P>, key: K, new: impl FnOnce() -> P) -> P {
+    let slot = all.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone();
+    slot.get_or_init(new).clone()
+}
+
+/// Pipelines for all plans with the same needs, and any scene. Shaders are written once for each.
 #[derive(Debug)]
 pub struct Pipelines {
     needs: Needs,
     custom: Arc<str>,
-    layers: OnceLock<wgpu::ComputePipeline>,
-    resolve: OnceLock<wgpu::RenderPipeline>,
-    resolve_sample: OnceLock<wgpu::ComputePipeline>,
-    aov: OnceLock<wgpu::ComputePipeline>,
-    explain: OnceLock<wgpu::ComputePipeline>,
-    screen: OnceLock<ScreenPipelines>,
-    visibility: OnceLock<wgpu::ShaderModule>,
-    crossings: OnceLock<wgpu::RenderPipeline>,
-    lids: OnceLock<wgpu::RenderPipeline>,
-    find_caps: OnceLock<wgpu::ComputePipeline>,
-    draws: Mutex<BTreeMap<(Program, Culling), wgpu::RenderPipeline>>,
+    compute: Kept<(Module, &'static str), wgpu::ComputePipeline>,
+    render: Kept<(Module, [&'static str; 2], Culling), wgpu::RenderPipeline>,
 }
 
 /// What runs the filters of the screen, each in a few passes, and draws the picture after them.
@@ -98,140 +127,97 @@ pub struct ScreenPipelines {
 
 impl Pipelines {
     fn new(needs: Needs, custom: Arc<str>) -> Self {
-        Self {
-            needs,
-            custom,
-            layers: OnceLock::new(),
-            resolve: OnceLock::new(),
-            resolve_sample: OnceLock::new(),
-            aov: OnceLock::new(),
-            explain: OnceLock::new(),
-            screen: OnceLock::new(),
-            visibility: OnceLock::new(),
-            crossings: OnceLock::new(),
-            lids: OnceLock::new(),
-            find_caps: OnceLock::new(),
-            draws: Mutex::default(),
-        }
+        Self { needs, custom, compute: Mutex::default(), render: Mutex::default() }
     }
 
     pub fn layers(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.layers, store, Module::Layers, &store.layouts.layers, "find_layers")
+        self.compute(store, Module::Layers, "find_layers")
     }
 
     pub fn resolve(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        let build = || {
-            let module = self.compile(&store.device, Module::Resolve);
-            let layout = pipeline_layout(store, &store.layouts.resolve);
-            let entries = ("tile_vertex", "resolve");
-            picture_pipeline(&store.device, &module, &layout, entries, store.target)
-        };
-        self.resolve.get_or_init(build).clone()
+        self.picture(store, Module::Resolve, ["tile_vertex", "resolve"])
     }
 
     pub fn aov(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.aov, store, Module::Aov, &store.layouts.resolve, "aovs")
+        self.compute(store, Module::Aov, "aovs")
     }
 
     pub fn explain(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.explain, store, Module::Explain, &store.layouts.resolve, "explain")
+        self.compute(store, Module::Explain, "explain")
     }
 
     /// Composites each pixel of a sample into a buffer.
     pub fn resolve_sample(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.resolve_sample, store, Module::Resolve, &store.layouts.resolve, "resolve_sample")
+        self.compute(store, Module::Resolve, "resolve_sample")
     }
 
     pub fn screen(&self, store: &PipelineStore) -> ScreenPipelines {
-        let build = || {
-            let module = self.compile(&store.device, Module::Screen);
-            // Nothing of the scene.
-            let layout = store.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("screen"),
-                bind_group_layouts: &[None, Some(&store.layouts.plan), Some(&store.layouts.screen)],
-                immediate_size: 0,
-            });
-            let compute = |entry| compute_pipeline(&store.device, &module, &layout, entry);
-            ScreenPipelines {
-                means: ["sum_rows", "sum_columns"].map(compute).into(),
-                lines: ["mark_lines", "find_in_rows", "draw_lines"].map(compute).into(),
-                finish: picture_pipeline(&store.device, &module, &layout, ("window_vertex", "finish"), store.target),
-            }
-        };
-        self.screen.get_or_init(build).clone()
+        let compute = |entry| self.compute(store, Module::Screen, entry);
+        ScreenPipelines {
+            means: ["sum_rows", "sum_columns"].map(compute).into(),
+            lines: ["mark_lines", "find_in_rows", "draw_lines"].map(compute).into(),
+            finish: self.picture(store, Module::Screen, ["window_vertex", "finish"]),
+        }
     }
 
     pub fn draw(&self, store: &PipelineStore, program: Program, culling: Culling) -> wgpu::RenderPipeline {
-        let module = self.visibility.get_or_init(|| self.compile(&store.device, Module::Visibility));
-        let build = || {
-            let layout = pipeline_layout(store, &store.layouts.visibility);
-            draw_pipeline(
-                &store.device,
-                module,
-                &layout,
-                ["vertex", program.entry()],
-                culling,
-                Keeps::Nearest,
-                item_stride(self.needs.set_words, self.needs.channels),
-            )
-        };
-        let mut kept = self.draws.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.entry((program, culling)).or_insert_with(build).clone()
-    }
-
-    fn compile(&self, device: &wgpu::Device, module: Module) -> wgpu::ShaderModule {
-        let text = source(module, &self.needs, &self.custom);
-        let source = match naga::front::wgsl::parse_str(&text) {
-            Ok(parsed) => wgpu::ShaderSource::Naga(Cow::Owned(pruned(parsed))),
-            // The device reports what is wrong.
-            Err(_) => wgpu::ShaderSource::Wgsl(text.into()),
-        };
-        device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(module.name()), source })
+        self.drawing(store, Module::Visibility, ["vertex", program.entry()], culling, Keeps::Nearest)
     }
 
     /// Lists what rays meet of what may be cut.
     pub fn crossings(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        self.crossings.get_or_init(|| self.listing(store, "cut_vertex")).clone()
+        self.drawing(store, Module::Caps, ["cut_vertex", "crossing"], Culling::None, Keeps::Nothing)
     }
 
     /// The same of what closes holes of it over.
     pub fn lids(&self, store: &PipelineStore) -> wgpu::RenderPipeline {
-        self.lids.get_or_init(|| self.listing(store, "lid_vertex")).clone()
-    }
-
-    fn listing(&self, store: &PipelineStore, vertex: &str) -> wgpu::RenderPipeline {
-        let module = self.compile(&store.device, Module::Caps);
-        let layout = pipeline_layout(store, &store.layouts.visibility);
-        let stride = item_stride(self.needs.set_words, self.needs.channels);
-        draw_pipeline(&store.device, &module, &layout, [vertex, "crossing"], Culling::None, Keeps::Nothing, stride)
+        self.drawing(store, Module::Caps, ["lid_vertex", "crossing"], Culling::None, Keeps::Nothing)
     }
 
     pub fn find_caps(&self, store: &PipelineStore) -> wgpu::ComputePipeline {
-        self.compute(&self.find_caps, store, Module::Caps, &store.layouts.visibility, "find_caps")
+        self.compute(store, Module::Caps, "find_caps")
     }
 
-    fn compute(
+    fn compute(&self, store: &PipelineStore, module: Module, entry: &'static str) -> wgpu::ComputePipeline {
+        kept(&self.compute, (module, entry), || {
+            let shader = self.shader(module, &[entry]);
+            kept(&store.compute, (shader.key, entry), || {
+                compute_pipeline(&store.device, &shader.compiled(&store.device), &store.layout(module), entry)
+            })
+        })
+    }
+
+    fn drawing(
         &self,
-        slot: &OnceLock<wgpu::ComputePipeline>,
         store: &PipelineStore,
         module: Module,
-        layout: &wgpu::BindGroupLayout,
-        entry: &str,
-    ) -> wgpu::ComputePipeline {
-        let build = || {
-            let module = self.compile(&store.device, module);
-            compute_pipeline(&store.device, &module, &pipeline_layout(store, layout), entry)
-        };
-        slot.get_or_init(build).clone()
+        entries: [&'static str; 2],
+        culling: Culling,
+        keeps: Keeps,
+    ) -> wgpu::RenderPipeline {
+        kept(&self.render, (module, entries, culling), || {
+            let stride = item_stride(self.needs.set_words, self.needs.channels);
+            let shader = self.shader(module, &entries);
+            kept(&store.render, (shader.key, entries, culling, stride), || {
+                let compiled = shader.compiled(&store.device);
+                draw_pipeline(&store.device, &compiled, &store.layout(module), entries, culling, keeps, stride)
+            })
+        })
     }
-}
 
-fn pipeline_layout(store: &PipelineStore, work: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-    store.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&store.layouts.scene), Some(&store.layouts.plan), Some(work)],
-        immediate_size: 0,
-    })
+    fn picture(&self, store: &PipelineStore, module: Module, entries: [&'static str; 2]) -> wgpu::RenderPipeline {
+        kept(&self.render, (module, entries, Culling::None), || {
+            let shader = self.shader(module, &entries);
+            kept(&store.render, (shader.key, entries, Culling::None, 0), || {
+                let compiled = shader.compiled(&store.device);
+                picture_pipeline(&store.device, &compiled, &store.layout(module), entries, store.target)
+            })
+        })
+    }
+
+    fn shader(&self, module: Module, entries: &[&str]) -> Shader {
+        Shader::new(module.name(), source(module, &self.needs, &self.custom), entries)
+    }
 }
 
 fn compute_pipeline(
@@ -341,7 +327,7 @@ fn picture_pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
-    (vertex, fragment): (&str, &str),
+    [vertex, fragment]: [&str; 2],
     target: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

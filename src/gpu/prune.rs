@@ -8,8 +8,10 @@ use std::collections::HashMap;
 use naga::compact::{KeepUnused, compact};
 use naga::{Block, Constant, Expression, Function, Handle, Literal, Module, Statement, SwitchCase};
 
-/// The same shader without branches that constants rule out, and without what only those use.
-pub fn pruned(mut module: Module) -> Module {
+/// The same shader with these of its entry points alone, without branches that constants rule out, and without what only
+/// those use.
+pub fn pruned(mut module: Module, entries: &[&str]) -> Module {
+    module.entry_points.retain(|entry| entries.contains(&entry.name.as_str()));
     let constants = known_constants(&module);
     let entries = module.entry_points.iter_mut().map(|entry| &mut entry.function);
     for function in module.functions.iter_mut().map(|(_, function)| function).chain(entries) {
@@ -123,7 +125,7 @@ mod tests {
 
     #[test]
     fn what_never_runs_is_gone_and_the_rest_is_valid() {
-        let module = pruned(parsed(TEXT));
+        let module = pruned(parsed(TEXT), &["run"]);
         assert_eq!(names(&module), ["cheap"]);
         let all = naga::valid::ValidationFlags::all();
         naga::valid::Validator::new(all, naga::valid::Capabilities::empty()).validate(&module).expect("valid");
@@ -132,6 +134,7 @@ mod tests {
     #[test]
     fn what_may_run_stays() {
         let text = TEXT.replace("const NOT_NEEDED: bool = false;", "@id(0) override NOT_NEEDED: bool = false;");
-        assert_eq!(names(&pruned(parsed(&text))), ["costly", "cheap"]);
+        assert_eq!(names(&pruned(parsed(&text), &["run"])), ["costly", "cheap"]);
+        assert!(names(&pruned(parsed(&text), &[])).is_empty());
     }
 }

@@ -39,6 +39,24 @@ pub struct Renderer {
     largest_buffer: u64,
 }
 
+/// What a frame is for.
+#[derive(Clone, Copy)]
+enum Work {
+    Picture,
+    Layers,
+    /// The nearest one behind a place, whatever the lenses make of it.
+    Fragment(Place),
+}
+
+impl Work {
+    fn after(self) -> Option<Place> {
+        match self {
+            Work::Fragment(after) => Some(after),
+            Work::Picture | Work::Layers => None,
+        }
+    }
+}
+
 /// What pictures are drawn into: colours come out encoded, in eight bits.
 const TARGET_FORMATS: [wgpu::TextureFormat; 4] = [
     wgpu::TextureFormat::Rgba8Unorm,
@@ -149,7 +167,19 @@ impl Renderer {
         window: Window,
         options: RenderOptions,
     ) -> Result<Job, Error> {
-        self.prepare_frame(device, scene, plan, window, options, None)
+        self.prepare_work(device, scene, plan, window, options, Work::Picture)
+    }
+
+    /// Prepares what finds the layers of the rays of pixel centres, and draws nothing.
+    pub(super) fn prepare_layers(
+        &mut self,
+        device: &wgpu::Device,
+        scene: &Scene,
+        plan: &Plan,
+        window: Window,
+    ) -> Result<Job, Error> {
+        let options = RenderOptions { aovs: true, ..RenderOptions::default() };
+        self.prepare_work(device, scene, plan, window, options, Work::Layers)
     }
 
     /// Prepares a frame that draws the nearest fragment behind a place, whatever the lenses make of it.
@@ -162,7 +192,7 @@ impl Renderer {
         after: Place,
     ) -> Result<Job, Error> {
         let options = RenderOptions { aovs: true, ..RenderOptions::default() };
-        self.prepare_frame(device, scene, plan, window, options, Some(after))
+        self.prepare_work(device, scene, plan, window, options, Work::Fragment(after))
     }
 
     /// What classifies and shades the fragment of a frame of one pixel, into so many bytes.
@@ -172,14 +202,14 @@ impl Renderer {
         Ok(ExplainPass { pipeline: job.accounts.explain(&self.store), group, buffer })
     }
 
-    fn prepare_frame(
+    fn prepare_work(
         &mut self,
         device: &wgpu::Device,
         scene: &Scene,
         plan: &Plan,
         window: Window,
         options: RenderOptions,
-        after: Option<Place>,
+        work: Work,
     ) -> Result<Job, Error> {
         if scene.id != self.scene.id {
             return Err(Error::OtherScene { what: "the renderer's" });
@@ -188,9 +218,9 @@ impl Renderer {
             return Err(Error::OtherScene { what: "the one that is drawn" });
         }
         let large = planes::large(scene, plan);
-        let needs = Needs::of(scene, plan, options.engine, &large);
-        // Maps count layers, whether the picture asks for them or not.
-        let cuts_layers = needs.layers || options.aovs;
+        let needs = Needs::of(scene, plan, &large);
+        // Maps count layers, and peeling goes from one to the next, whether the picture asks for them or not.
+        let cuts_layers = needs.layers || options.aovs || options.engine == Engine::Peel;
         let words = needs.set_words;
         let tiles = Tiles::new(plan, &window, words, self.reserved.crossings);
         let sizes = TargetSizes {
@@ -211,7 +241,7 @@ impl Renderer {
             tiles: &tiles,
             fragment_capacity: room.fragments.min(u64::from(u32::MAX)) as u32,
             target_is_srgb: self.store.target.is_srgb(),
-            after,
+            after: work.after(),
         };
         let frames = frame_bytes(&shape, &samples, passes, record_stride);
         let counters = 4 * COUNTERS * samples.len() as u64;
@@ -232,41 +262,49 @@ impl Renderer {
             tiles: &tiles.words,
         }
         .upload(device, &self.store.layouts.plan, self.largest_buffer)?;
+        let draws_picture = matches!(work, Work::Picture);
         // What they were made for may have needed more.
-        let of_screen = targets.screen.as_ref().filter(|_| needs.screen);
+        let of_screen = targets.screen.as_ref().filter(|_| needs.screen && draws_picture);
         let screen = of_screen.map(|of_screen| self.screen(device, plan, needs, of_screen, &targets.accumulated));
         let screen = screen.transpose()?;
         let resolved = of_screen.map_or(&targets.accumulated, |of_screen| &of_screen.samples);
         let groups = self.groups(device, group, &targets, &needed, maps.as_ref(), resolved);
-        let skip = if after.is_some() { Skip::Nothing } else { Skip::WhatIsGone };
+        let skip = if work.after().is_some() { Skip::Nothing } else { Skip::WhatIsGone };
         // Compiled side by side where they are new.
-        let (store, custom, none) = (&self.store, &custom_text(plan), &Arc::from(""));
-        let unshaded = store.get(needs.without_shading(), none);
+        let (store, custom) = (&self.store, &custom_text(plan));
+        let pipelines = store.get(needs, custom);
         let accounts = store.get(needs.for_accounts(), custom);
         let ((draws, caps, layers), (aov, resolve)) = rayon::join(
             || {
-                let program = program_of(options.engine, after.is_some());
-                let draws = self.draws(scene, plan, &window, (skip, &large), program, &unshaded);
+                let layers = cuts_layers.then(|| pipelines.layers(store));
+                if matches!(work, Work::Layers) {
+                    return (Vec::new(), None, layers);
+                }
+                let program = program_of(options.engine, work.after().is_some());
+                let draws = self.draws(scene, plan, &window, (skip, &large), program, &pipelines);
                 let caps = needs.caps.then(|| {
                     let lids = cut_data::lid_draws(scene, plan, &window);
                     CapSteps {
                         draws: cut_data::draws(plan, &window, &self.scene),
-                        crossings: unshaded.crossings(store),
-                        lids: (!lids.is_empty()).then(|| (lids, unshaded.lids(store))),
-                        find: unshaded.find_caps(store),
+                        crossings: pipelines.crossings(store),
+                        lids: (!lids.is_empty()).then(|| (lids, pipelines.lids(store))),
+                        find: pipelines.find_caps(store),
                     }
                 });
-                (draws, caps, cuts_layers.then(|| unshaded.layers(store)))
+                (draws, caps, layers)
             },
             || {
-                let resolve = |needs| store.get(needs, custom).resolve(store);
+                if !draws_picture {
+                    return (None, None);
+                }
                 let aov = options.aovs.then(|| accounts.aov(store));
-                let of_sample = || ResolvePipelines::Sample(store.get(needs, custom).resolve_sample(store));
+                let of_sample = || ResolvePipelines::Sample(pipelines.resolve_sample(store));
                 let of_tiles = || {
-                    let (inside, outside) = rayon::join(|| resolve(needs), || resolve(needs.outside(plan)));
+                    let outside = || store.get(needs.outside(plan), custom).resolve(store);
+                    let (inside, outside) = rayon::join(|| pipelines.resolve(store), outside);
                     ResolvePipelines::Tiles { inside, outside }
                 };
-                (aov, if needs.screen { of_sample() } else { of_tiles() })
+                (aov, Some(if needs.screen { of_sample() } else { of_tiles() }))
             },
         );
         Ok(Job {
@@ -301,7 +339,7 @@ impl Renderer {
         targets: &ScreenTargets,
         accumulated: &wgpu::Buffer,
     ) -> Result<ScreenJob, Error> {
-        let pipelines = self.store.get(needs.for_screen(), &Arc::from("")).screen(&self.store);
+        let pipelines = self.store.get(needs, &custom_text(plan)).screen(&self.store);
         ScreenJob::new(device, plan, pipelines, &self.store.layouts.screen, targets, accumulated)
     }
 

@@ -161,7 +161,8 @@ impl<'a> Ops<'a> {
         let last_mover = filters.iter().rposition(|filter| filter.value.moves());
         for (place, filter) in filters.iter().enumerate() {
             let inner = u32::from(last_mover.is_some_and(|mover| place < mover));
-            let record = self.record(place, &filter.value).map_err(|e| e.or_at(&self.spec.source, filter.span.clone()))?;
+            let record =
+                self.record(place, &filter.value).map_err(|e| e.or_at(&self.spec.source, filter.span.clone()))?;
             if let Some(op) = record {
                 self.list.push(Op { inner, ..op });
             }

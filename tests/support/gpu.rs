@@ -23,9 +23,9 @@ pub fn is_ignored() -> bool {
     !required && choose_named(None).is_err()
 }
 
-/// What plans have in common that need the same shaders, whichever engine draws them and however large triangles are.
+/// What plans have in common that need the same shaders, however large triangles are.
 pub fn needs(opened: &Opened) -> Needs {
-    Needs::of(&opened.scene, &opened.plan, Engine::Fused, &[])
+    Needs::of(&opened.scene, &opened.plan, &[])
 }
 
 /// The picture with its AOVs.

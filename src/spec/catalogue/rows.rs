@@ -3,8 +3,8 @@
 use super::FilterKind::{Color as Colour, Content, Coverage, Custom, Screen, Surface};
 use super::ParamDefault::{Bool as Yes, Color as Hex, Meaning, Number as Num, Required, Text as Word};
 use super::ParamKind::{
-    Bool, Cap, Choice, Color, ColorMap, File, FreeTable, Integer, Interval, Number, NumberOrPair, Outline, Patterns, Text,
-    Vector,
+    Bool, Cap, Choice, Color, ColorMap, File, FreeTable, Integer, Interval, Number, NumberOrPair, Outline, Patterns,
+    Text, Vector,
 };
 use super::{FilterKind, FilterRow, Param, ParamDefault, ParamKind};
 use crate::spec::NumberRange;

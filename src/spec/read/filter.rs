@@ -13,7 +13,9 @@ use crate::InputError;
 use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Outline, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
+use crate::spec::{
+    At, Cap, Color, Filter, Matches, NumberRange, Outline, Pattern, Quantity, ShowWhat, UvMapping, WireEdges,
+};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]

@@ -72,9 +72,10 @@ impl<'a> Stage<'a> {
             let depths = corners.map(|p| (world.transform_point3(*p) - view.eye).dot(view.forward));
             depths.collect::<Vec<f64>>()
         };
-        let scene = subjects.iter().flat_map(depths).fold([f64::INFINITY, f64::NEG_INFINITY], |range, depth| {
-            [range[0].min(depth), range[1].max(depth)]
-        });
+        let scene = subjects
+            .iter()
+            .flat_map(depths)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |range, depth| [range[0].min(depth), range[1].max(depth)]);
         let mut stage = Self { case, view, composition, subjects, candidates: Vec::new(), bodies: Vec::new(), scene };
         for subject in 0..stage.subjects.len() {
             for chain in 0..1usize << movers.len() {

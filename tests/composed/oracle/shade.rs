@@ -19,6 +19,9 @@ pub struct Shade {
 /// Pixels around the rim of a wire where its coverage is in doubt.
 const RIM: f64 = 1.0;
 
+/// The sine up to which a triangle is seen edge on.
+const EDGE_ON: f64 = 1e-3;
+
 /// How much farther than `soft` a boundary must be for a lens to act in full whatever its shape: distances are only of
 /// first order where it is stretched.
 const SURELY: f64 = 4.0;
@@ -164,19 +167,21 @@ fn edges(stage: &Stage, hit: &Hit, met: &Met, [x, y]: [f64; 2]) -> Vec<Edge> {
     let edge = |i: usize| {
         let [a, b, c] = [0, 1, 2].map(|step| triangle[(i + step) % 3]);
         let [p, q] = [a, b].map(|p| stage.view.project(p));
-        let side = |[x, y]: [f64; 2]| {
-            let (along, from) = ([q[0] - p[0], q[1] - p[1]], [x - p[0], y - p[1]]);
-            (along[0] * from[1] - along[1] * from[0]) / along[0].hypot(along[1])
-        };
-        let own = side(stage.view.project(c));
+        let (along, from) = ([q[0] - p[0], q[1] - p[1]], [x - p[0], y - p[1]]);
+        let away = (along[0] * from[1] - along[1] * from[0]) / along[0].hypot(along[1]);
+        // On which side of the edge a corner is seen, which may lie behind the eye: its sine from the plane through both.
+        let across = stage.view.towards(a).cross(b - a).normalize();
+        let side = |corner: DVec3| across.dot((corner - a).normalize());
+        let own = side(c);
         let others = stage.across(hit.subject, &met.moves, [a, b], c).into_iter();
-        let others: Vec<f64> = others.map(|d| side(stage.view.project(d))).collect();
+        let others: Vec<f64> = others.map(side).collect();
         let goes_on = match others[..] {
             [] => Some(false),
-            [other] if other.abs() > 0.1 && own.abs() > 0.1 => Some(other * own < 0.0),
+            [other] if other.abs() > EDGE_ON && own.abs() > EDGE_ON => Some(other * own < 0.0),
             _ => None,
         };
-        Edge { away: side([x, y]).abs(), end_away: (x - p[0]).hypot(y - p[1]), goes_on }
+        let end_away = if stage.view.is_in_front(a) { (x - p[0]).hypot(y - p[1]) } else { f64::INFINITY };
+        Edge { away: away.abs(), end_away, goes_on }
     };
     (0..3).map(edge).collect()
 }

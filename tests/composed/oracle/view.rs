@@ -74,6 +74,15 @@ impl View {
         [0.5 * self.size[0] + from.dot(self.right) / pixel, 0.5 * self.size[1] - from.dot(self.up) / pixel]
     }
 
+    /// The direction of the ray to a point, of any length.
+    pub fn towards(&self, p: DVec3) -> DVec3 {
+        if self.is_perspective { p - self.eye } else { self.forward }
+    }
+
+    pub fn is_in_front(&self, p: DVec3) -> bool {
+        !self.is_perspective || (p - self.eye).dot(self.forward) > 0.0
+    }
+
     /// World from the space of what is attached to the camera.
     pub fn world_from_camera(&self) -> DAffine3 {
         DAffine3::from_mat3_translation(DMat3::from_cols(self.right, self.up, -self.forward), self.eye)
