@@ -13,7 +13,9 @@ use crate::InputError;
 use crate::color_map;
 use crate::custom::{self, Given};
 use crate::spec::catalogue::{self, FILTERS, FilterRow, Param, ParamDefault, ParamKind};
-use crate::spec::{At, Cap, Color, Filter, Matches, NumberRange, Outline, Pattern, Quantity, ShowWhat, UvMapping, WireEdges};
+use crate::spec::{
+    At, Cap, Color, Filter, Matches, NumberRange, Outline, Pattern, Quantity, ShowWhat, UvMapping, WireEdges,
+};
 
 /// A parameter's value, of the type its [`ParamKind`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,7 +107,7 @@ impl<'a> Params<'a> {
         }
         for param in row.params {
             let value = match given.iter().find(|(key, ..)| *key == param.name) {
-                Some((_, _, value)) => Some(params.given(param, &Item::new(item.file, param.name, value))?),
+                Some((_, _, value)) => Some(read(param.kind, &Item::new(item.file, param.name, value))?),
                 None => params.default(param)?,
             };
             params.values.push((param.name, value));
@@ -119,10 +121,6 @@ impl<'a> Params<'a> {
             [] => error.help("it has no parameters"),
             params => error.help(suggest::help(key, params.iter().map(|param| param.name))),
         }
-    }
-
-    fn given(&self, param: &Param, item: &Item) -> Result<Value, InputError> {
-        read(param.kind, item)
     }
 
     fn default(&self, param: &Param) -> Result<Option<Value>, InputError> {
