@@ -7,6 +7,7 @@ use std::ops::Range;
 use crate::limits::MAX_SHOWN;
 use crate::printable;
 use crate::spec::Source;
+use crate::spec::suggest::MOST_SUGGESTED;
 
 /// Something in a spec or a model is wrong. `Display` is a single paragraph that names the place;
 /// the program prints the same with the source lines.
@@ -99,6 +100,11 @@ impl Faults {
                 self.0.push(error);
             }
         }
+    }
+
+    /// Whether it is worth the time to look for what may have been meant.
+    pub fn are_few(&self) -> bool {
+        self.0.len() < MOST_SUGGESTED
     }
 
     /// The value, or `None` where its fault was noted.

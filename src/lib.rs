@@ -8,6 +8,7 @@ pub mod color_map;
 pub mod cpu;
 pub mod custom;
 pub mod debug_view;
+mod drawing;
 mod error;
 pub mod explain;
 mod file_kind;

@@ -15,11 +15,11 @@ pub const MAX_NAME: usize = 256;
 /// Pairs of lenses that `over`, `under` and `hides` of one file put in order.
 pub const MAX_EDGES: usize = 1 << 20;
 
-/// Planes of polytopes and corners of flat lenses, of all enabled lenses together. A polytope is cut out plane by plane,
-/// which takes time by the square of their number.
+/// Planes of polytopes and corners of flat lenses, of all lenses together, disabled ones included. A polytope is cut out
+/// plane by plane, which takes time by the square of their number.
 pub const MAX_PLANES: usize = 16_384;
 
-/// Comparisons of patterns with names of nodes and materials, see [`crate::scene`]; a few nanoseconds each.
+/// Comparisons of patterns with names of nodes and materials, and with names of lenses; a few nanoseconds each.
 pub const MAX_COMPARISONS: u64 = 1 << 28;
 
 /// Regions that a search lists.

@@ -86,3 +86,17 @@ fn numbers_that_the_schema_refuses_the_reader_refuses() {
     refused += hold("/properties/light", |keys| format!("light = {{ {keys} }}\n"));
     assert!(refused > 15, "only {refused}");
 }
+
+#[test]
+fn as_many_lenses_and_rules_as_the_reader_takes_the_schema_takes() {
+    let schema = lenspeel::cli::schema();
+    let most = |list: &str| schema["properties"][list]["maxItems"].as_u64().expect("a limit") as usize;
+    let lens = |n: usize| {
+        format!("[[lens]]\nname = \"l{n}\"\nenabled = false\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\n")
+    };
+    let rule = |_| "[[overlap]]\nwhen = \"l0\"\nfilters = []\n".to_owned();
+    let spec = |lenses: usize, rules: usize| (0..lenses).map(lens).chain((0..rules).map(rule)).collect::<String>();
+    assert_eq!(read(&spec(most("lens"), most("overlap"))), Ok(()));
+    assert!(read(&spec(most("lens") + 1, 0)).is_err_and(|error| error.contains("4097 lenses")));
+    assert!(read(&spec(1, most("overlap") + 1)).is_err_and(|error| error.contains("129 overlap rules")));
+}

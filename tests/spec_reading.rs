@@ -122,6 +122,59 @@ fn a_disabled_lens_may_be_named_by_an_edge() {
     assert!(parse(text).is_ok());
 }
 
+fn sphere(name: &str, keys: &str) -> String {
+    format!("[[lens]]\nname = \"{name}\"\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\n{keys}\n")
+}
+
+fn refused(lenses: &str) -> InputError {
+    parse(&format!("[scene]\nfile = \"a.glb\"\n{lenses}")).expect_err("it is refused")
+}
+
+#[test]
+fn what_a_key_names_twice_it_names_once() {
+    let text = format!("[scene]\nfile = \"a.glb\"\n{}{}", sphere("a", ""), sphere("b", "over = ['a', '*', 'a', '*']"));
+    let over: Vec<String> = parse(&text).expect("a spec").lenses[1].over.iter().map(|p| p.value.0.clone()).collect();
+    assert_eq!(over, ["a", "*"]);
+}
+
+#[test]
+fn patterns_over_very_many_lenses_are_refused_with_the_number() {
+    let lenses: String = (0..2000).map(|i| sphere(&format!("l{i}"), "enabled = false")).collect();
+    let patterns: Vec<String> = (0..150_000).map(|i| format!("'*{i}'")).collect();
+    let error = refused(&(lenses + &sphere("last", &format!("over = [{}]", patterns.join(",")))));
+    assert!(error.message.contains("over the names of 2001 lenses") && error.message.contains("268435456"), "{error}");
+}
+
+#[test]
+fn of_many_unknown_names_the_first_get_suggestions() {
+    let names: Vec<String> = (0..30).map(|i| format!("'first{i}'")).collect();
+    let error = refused(&(sphere("first", "") + &sphere("b", &format!("over = [{}]", names.join(",")))));
+    let helps: Vec<&str> =
+        std::iter::once(&error).chain(&error.others).filter_map(|error| error.help.as_deref()).collect();
+    let suggested = helps.iter().filter(|help| help.contains("did you mean `first`?")).count();
+    assert_eq!((helps.len(), suggested), (30, 20));
+}
+
+#[test]
+fn planes_of_disabled_lenses_count() {
+    let planes = vec!["[1, 0, 0, 1]"; 16_385].join(",");
+    let lens = format!("[[lens]]\nname = 'a'\nenabled = false\nshape.polytope = {{ planes = [{planes}] }}\n");
+    assert!(refused(&lens).message.contains("16385 planes"), "{}", refused(&lens));
+}
+
+#[test]
+fn names_are_as_long_as_said() {
+    let (long, longer) = ("x".repeat(256), "x".repeat(257));
+    let error = refused(&sphere(&longer, "")).message;
+    assert!(error.contains("a lens name has at most 256 characters, and this one has 257"), "{error}");
+    let alternate = |name: &str| parse(&format!("[scene]\nfile = \"a.glb\"\nalternates.{name} = \"b.glb\"\n"));
+    assert!(alternate(&long).is_ok());
+    // Two bytes each.
+    assert!(alternate(&format!("\"{}\"", "é".repeat(256))).is_ok());
+    let error = alternate(&longer).expect_err("it is too long").message;
+    assert!(error.contains("the name of an alternate has at most 256 characters, and this one has 257"), "{error}");
+}
+
 #[test]
 fn a_condition_as_deep_as_allowed_is_read_and_dropped() {
     let rule = |when: String| {

@@ -2,7 +2,7 @@
 // may also be `depth`, `curvature`, or a vertex attribute of the file such as `_TEMPERATURE`; the spacing is in its units.
 // Lines lie on the surface, unlit, in `color`; between them it stays as it is. Where lines come closer than three of their
 // widths they fade, so that steep faces do not turn black. What is flat and lies at a line's height, a sea or a floor, is no
-// line.
+// line: of the line along its shore the half is drawn that lies on what rises.
 
 fn contours_surface(op: Op, before: Surface, reading: Reading) -> Surface {
     if reading.change <= 0.0 {

@@ -1,6 +1,5 @@
 //! The command line.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ColorChoice, Parser, Subcommand, ValueEnum};
@@ -8,12 +7,12 @@ use clap::{Args, ColorChoice, Parser, Subcommand, ValueEnum};
 use super::open::OpenArgs;
 use super::outputs::is_stream;
 use crate::InputError;
-use crate::limits::MAX_SPEC_BYTES;
 use crate::output::Aov;
 use crate::spec::{ImageSpec, Spec};
 
 #[derive(Debug, Parser)]
 #[command(name = "lenspeel", version, about = "Composed 3D magic lenses", arg_required_else_help = true)]
+#[command(after_help = "To begin: `lenspeel init MODEL -o SPEC.toml`, then `lenspeel render SPEC.toml -o PICTURE.png`")]
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
@@ -51,7 +50,7 @@ pub enum Command {
     Init {
         /// A .glb or .gltf file
         model: PathBuf,
-        /// Where to write it; left out: to the terminal
+        /// Where to write it; left out, or `-`: standard output
         #[arg(short, long)]
         output: Option<PathBuf>,
         #[command(flatten)]
@@ -86,7 +85,7 @@ pub enum Command {
     },
     /// Print a manual page
     Man {
-        /// Of this subcommand; left out: of the program
+        /// The subcommand that it is of; left out: the program
         command: Option<String>,
     },
 }
@@ -106,13 +105,7 @@ impl SpecArgs {
         if !is_stream(&self.spec) {
             return Spec::load_with(&self.spec, &self.set);
         }
-        let mut bytes = Vec::new();
-        std::io::stdin()
-            .lock()
-            .take(MAX_SPEC_BYTES + 1)
-            .read_to_end(&mut bytes)
-            .map_err(|error| InputError::new(format!("cannot read the spec from standard input: {error}")))?;
-        Spec::from_bytes(bytes, "<stdin>", Path::new(""), &self.set)
+        Spec::read(std::io::stdin().lock(), "<stdin>", Path::new(""), &self.set)
     }
 }
 
@@ -160,7 +153,7 @@ pub struct RenderArgs {
     /// Samples a pixel: 1, 4, 9 or 16; left out: the spec's
     #[arg(long, value_parser = parse_samples)]
     pub samples: Option<u32>,
-    /// What renders: the GPU, the CPU, or the GPU where there is a real one
+    /// What renders
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
     /// How the GPU composes; left out: fused
@@ -196,8 +189,7 @@ pub struct ViewArgs {
     /// Width and height in pixels, as in 1920x1080; left out: the spec's
     #[arg(long, value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Who finds what is seen: the CPU, the GPU, or the GPU where there is a real one; left out: the CPU, which need not
-    /// be started
+    /// What finds out what is seen; left out: the CPU, which need not be started
     #[arg(long, value_enum)]
     pub backend: Option<BackendChoice>,
     #[command(flatten)]
@@ -225,6 +217,7 @@ pub struct BenchArgs {
 pub struct ExplainArgs {
     #[command(flatten)]
     pub view: ViewArgs,
+    /// How it is told
     #[arg(long, value_enum, default_value_t = ExplainFormat::Text)]
     pub format: ExplainFormat,
     /// Explain one pixel, from the top left corner: column,row
@@ -239,14 +232,18 @@ pub struct PickArgs {
     /// Column and row from the top left corner, as in 640,360
     #[arg(value_name = "X,Y", value_parser = parse_pixel)]
     pub pixel: [u32; 2],
+    /// How it is told
     #[arg(long, value_enum, default_value_t = PickFormat::Text)]
     pub format: PickFormat,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BackendChoice {
+    /// The GPU where there is one in hardware, else the CPU
     Auto,
+    /// The GPU, in software where there is no other
     Gpu,
+    /// The CPU
     Cpu,
 }
 
@@ -272,7 +269,9 @@ pub enum ViewChoice {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ExplainFormat {
+    /// For people
     Text,
+    /// The same for programs
     Json,
     /// The priority graph for Graphviz
     Dot,
@@ -282,6 +281,7 @@ pub enum ExplainFormat {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum PickFormat {
+    /// For people
     Text,
     /// One object, or null where nothing is
     Json,

@@ -1,255 +1,307 @@
 //! Which backend renders, and one line on why.
 
-#[cfg(feature = "gpu")]
-use std::cell::Cell;
+use std::fmt;
+use std::rc::Rc;
 
 use super::args::{BackendChoice, EngineChoice};
 use super::stages::Stages;
+#[cfg(feature = "gpu")]
 use super::streams::Messages;
 use crate::InputError;
 use crate::cpu;
 use crate::frame::{Aovs, Frame, InFront};
+#[cfg(feature = "gpu")]
+use crate::gpu::{Engine, Error, Headless, RenderOptions, Renderer, Timings, Window};
 use crate::lens::LayerStart;
 use crate::pick::Pick;
 use crate::pixel::PixelReport;
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// A backend ready to render.
-pub enum Backend {
-    Cpu,
+/// What renders, and why.
+pub struct Backend {
     #[cfg(feature = "gpu")]
-    Gpu {
-        device: Box<crate::gpu::Headless>,
-        /// Where it cannot make a picture the CPU does: nobody asked for the GPU.
-        or_cpu: bool,
-        /// It could not.
-        gave_up: Cell<bool>,
-        messages: Messages,
-    },
+    gpu: Option<Gpu>,
+    pub reason: String,
 }
 
-/// Chooses as the user asked; the text says what and why.
 #[cfg(feature = "gpu")]
-pub fn choose(choice: BackendChoice, messages: Messages) -> Result<(Backend, String), InputError> {
-    use crate::gpu::{Headless, choose_hardware, choose_named};
-    let fail = |e: crate::gpu::Error| InputError::new(e.to_string()).help("`--backend cpu` needs no graphics device");
-    let gpu = |adapter: crate::gpu::AdapterChoice, or_cpu: bool| {
+struct Gpu {
+    device: Box<Headless>,
+    /// Where it cannot make a picture the CPU does: nobody asked for the GPU.
+    or_cpu: bool,
+}
+
+/// Chooses as the user asked.
+#[cfg(feature = "gpu")]
+pub fn choose(choice: BackendChoice) -> Result<Backend, InputError> {
+    use crate::gpu::{AdapterChoice, choose_hardware, choose_named};
+    let gpu = |adapter: AdapterChoice, or_cpu: bool| {
         let device = Box::new(Headless::new(&adapter)?);
-        Ok((Backend::Gpu { device, or_cpu, gave_up: Cell::new(false), messages }, format!("gpu: {}", adapter.reason)))
+        Ok(Backend { gpu: Some(Gpu { device, or_cpu }), reason: adapter.reason })
     };
     match choice {
-        BackendChoice::Cpu => Ok((Backend::Cpu, "cpu: it was asked for".into())),
-        BackendChoice::Gpu => choose_named(None).and_then(|adapter| gpu(adapter, false)).map_err(fail),
-        BackendChoice::Auto => Ok(choose_hardware()
-            .and_then(|adapter| gpu(adapter, true))
-            .unwrap_or_else(|reason| (Backend::Cpu, format!("cpu: {reason}")))),
+        BackendChoice::Cpu => Ok(Backend::cpu("it was asked for")),
+        BackendChoice::Gpu => choose_named(None).and_then(|adapter| gpu(adapter, false)).map_err(|error: Error| {
+            InputError::new(error.to_string()).help("`--backend cpu` needs no graphics device")
+        }),
+        BackendChoice::Auto => {
+            let chosen = choose_hardware().and_then(|adapter| gpu(adapter, true));
+            Ok(chosen.unwrap_or_else(|error| Backend::cpu(error.to_string())))
+        }
     }
 }
 
-/// Chooses as the user asked; the text says what and why.
+/// Chooses as the user asked.
 #[cfg(not(feature = "gpu"))]
-pub fn choose(choice: BackendChoice, _: Messages) -> Result<(Backend, String), InputError> {
+pub fn choose(choice: BackendChoice) -> Result<Backend, InputError> {
     match choice {
-        BackendChoice::Cpu => Ok((Backend::Cpu, "cpu: it was asked for".into())),
-        BackendChoice::Auto => Ok((Backend::Cpu, "cpu: this program was built without the `gpu` feature".into())),
+        BackendChoice::Cpu => Ok(Backend::cpu("it was asked for")),
+        BackendChoice::Auto => Ok(Backend::cpu("this program was built without the `gpu` feature")),
         BackendChoice::Gpu => Err(InputError::new("this program was built without the `gpu` feature")
             .help("build it with default features, or use `--backend cpu`")),
     }
 }
 
 impl Backend {
-    /// The picture. An engine is a matter of the GPU; where the CPU renders, a note says so.
-    pub fn render(
-        &self,
-        scene: &Scene,
-        plan: &Plan,
-        engine: Option<EngineChoice>,
-        aovs: bool,
-        stages: &mut Stages,
-    ) -> Result<Frame, InputError> {
-        #[cfg(feature = "gpu")]
-        if let Some(device) = self.device() {
-            let engine = match engine {
-                None | Some(EngineChoice::Fused) => crate::gpu::Engine::Fused,
-                Some(EngineChoice::Peel) => crate::gpu::Engine::Peel,
-            };
-            match on_gpu(device, scene, plan, engine, aovs, stages) {
-                Ok(frame) => return Ok(frame),
-                Err(error) => self.give_up(error)?,
-            }
-            return on_cpu(scene, plan, aovs, stages);
-        }
-        if engine.is_some() {
-            stages.messages.note("note: --engine is about the GPU, and the CPU renders");
-        }
-        on_cpu(scene, plan, aovs, stages)
-    }
-}
-
-#[cfg(feature = "gpu")]
-impl Backend {
-    /// The device, as long as it makes pictures.
-    fn device(&self) -> Option<&crate::gpu::Headless> {
-        match self {
-            Backend::Gpu { device, gave_up, .. } if !gave_up.get() => Some(device),
-            _ => None,
+    pub fn cpu(reason: impl Into<String>) -> Self {
+        Self {
+            #[cfg(feature = "gpu")]
+            gpu: None,
+            reason: reason.into(),
         }
     }
 
-    /// Leaves the picture, and all that follows, to the CPU, if that may take over; one line says so.
-    fn give_up(&self, error: crate::gpu::Error) -> Result<(), InputError> {
-        match self {
-            Backend::Gpu { or_cpu: true, gave_up, messages, .. } => {
-                messages.note(format_args!("cpu: the GPU cannot make this picture: {error}"));
-                gave_up.set(true);
-                Ok(())
-            }
-            _ => Err(no_picture(error)),
-        }
-    }
-}
-
-/// What lies in front of what is visible, which the CPU finds whoever renders.
-pub fn in_front(scene: &Scene, plan: &Plan) -> Result<InFront, InputError> {
-    Ok(cpu::Renderer::new(scene, plan)?.in_front()?)
-}
-
-impl Backend {
     /// In a word.
     pub fn name(&self) -> &'static str {
         #[cfg(feature = "gpu")]
-        if self.device().is_some() {
+        if self.gpu.is_some() {
             return "gpu";
         }
         "cpu"
     }
 
-    /// What lies at the centre of each pixel.
-    pub fn maps(&self, scene: &Scene, plan: &Plan, stages: &mut Stages) -> Result<Aovs, InputError> {
-        #[cfg(feature = "gpu")]
-        if let Some(device) = self.device() {
-            match on_gpu(device, scene, plan, crate::gpu::Engine::Fused, true, stages) {
-                Ok(frame) => return Ok(frame.aovs.unwrap_or_default()),
-                Err(error) => self.give_up(error)?,
-            }
+    /// Leaves the picture, and all that follows, to the CPU, if that may take over; one line says so.
+    #[cfg(feature = "gpu")]
+    fn give_up(&mut self, error: Error, messages: Messages) -> Result<(), InputError> {
+        let reason = format!("the GPU cannot make this picture: {error}");
+        if !self.gpu.as_ref().is_some_and(|gpu| gpu.or_cpu) {
+            return Err(InputError::new(reason).help("try a smaller `--size`, or `--backend cpu`"));
         }
-        let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan))?;
-        let bar = stages.progress(plan.view.size.iter().map(|s| u64::from(*s)).product());
-        let maps = stages.time("render", || renderer.maps(&|done| bar.inc(done)));
-        bar.finish_and_clear();
-        Ok(maps?)
+        *self = Self::cpu(reason);
+        messages.note(&*self);
+        Ok(())
+    }
+}
+
+impl fmt::Display for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.name(), self.reason)
+    }
+}
+
+/// A backend at work on a plan. What only the CPU finds it finds whoever renders.
+pub struct Session<'a> {
+    pub backend: Backend,
+    pub stages: Stages,
+    scene: &'a Scene,
+    plan: &'a Plan,
+    /// Made when they are first needed.
+    cpu: Option<Rc<cpu::Renderer<'a>>>,
+    #[cfg(feature = "gpu")]
+    gpu: Option<Renderer>,
+}
+
+impl<'a> Session<'a> {
+    pub fn new(backend: Backend, scene: &'a Scene, plan: &'a Plan, stages: Stages) -> Self {
+        Self {
+            backend,
+            stages,
+            scene,
+            plan,
+            cpu: None,
+            #[cfg(feature = "gpu")]
+            gpu: None,
+        }
+    }
+
+    /// The picture. An engine is a matter of the GPU; where the CPU renders, a note says so.
+    pub fn render(&mut self, engine: Option<EngineChoice>, aovs: bool) -> Result<Frame, InputError> {
+        #[cfg(feature = "gpu")]
+        if let Some(frame) = self.frame_on_gpu(engine.unwrap_or(EngineChoice::Fused), aovs)? {
+            return Ok(frame);
+        }
+        if engine.is_some() {
+            self.stages.messages.note("note: --engine is about the GPU, and the CPU renders");
+        }
+        self.on_all_pixels(|renderer, done| renderer.render(aovs, done))
+    }
+
+    /// What lies at the centre of each pixel.
+    pub fn maps(&mut self) -> Result<Aovs, InputError> {
+        #[cfg(feature = "gpu")]
+        if let Some(frame) = self.frame_on_gpu(EngineChoice::Fused, true)? {
+            return Ok(frame.aovs.unwrap_or_default());
+        }
+        self.on_all_pixels(|renderer, done| renderer.maps(done))
     }
 
     /// What the ray through a pixel's centre meets.
-    pub fn explain(&self, scene: &Scene, plan: &Plan, [x, y]: [u32; 2]) -> Result<PixelReport, InputError> {
+    pub fn explain(&mut self, [x, y]: [u32; 2]) -> Result<PixelReport, InputError> {
         #[cfg(feature = "gpu")]
-        if let Some(device) = self.device() {
-            let report = |mut renderer| device.explain(&mut renderer, scene, plan, [x, y]);
-            match device.renderer(scene).and_then(report) {
-                Ok(report) => return Ok(report),
-                Err(error) => self.give_up(error)?,
-            }
+        if let Some(report) =
+            self.on_gpu(|device, renderer, scene, plan, _| device.explain(renderer, scene, plan, [x, y]))?
+        {
+            return Ok(report);
         }
-        Ok(cpu::Renderer::new(scene, plan)?.explain(x, y))
+        Ok(self.cpu()?.explain(x, y))
     }
 
     /// What is visible at a pixel.
-    pub fn pick(&self, scene: &Scene, plan: &Plan, [x, y]: [u32; 2]) -> Result<Option<Pick>, InputError> {
+    pub fn pick(&mut self, [x, y]: [u32; 2]) -> Result<Option<Pick>, InputError> {
         #[cfg(feature = "gpu")]
-        if let Some(device) = self.device() {
-            let pick = |mut renderer| device.pick(&mut renderer, scene, plan, [x, y]);
-            match device.renderer(scene).and_then(pick) {
-                Ok(pick) => return Ok(pick),
-                Err(error) => self.give_up(error)?,
-            }
+        if let Some(pick) =
+            self.on_gpu(|device, renderer, scene, plan, _| device.pick(renderer, scene, plan, [x, y]))?
+        {
+            return Ok(pick);
         }
-        Ok(cpu::Renderer::new(scene, plan)?.pick(x, y))
+        Ok(self.cpu()?.pick(x, y))
     }
 
     /// The layers of the rays through the pixel centres of a row.
-    pub fn row_layers(&self, scene: &Scene, plan: &Plan, row: u32) -> Result<Vec<Vec<LayerStart>>, InputError> {
+    pub fn row_layers(&mut self, row: u32) -> Result<Vec<Vec<LayerStart>>, InputError> {
         #[cfg(feature = "gpu")]
-        if let Some(device) = self.device() {
-            let window = crate::gpu::Window { min: [0, row], size: [plan.view.size[0], 1] };
-            let layers = |mut renderer| device.layers(&mut renderer, scene, plan, window);
-            match device.renderer(scene).and_then(layers) {
-                Ok(layers) => return Ok(layers),
-                Err(error) => self.give_up(error)?,
+        {
+            let window = Window { min: [0, row], size: [self.plan.view.size[0], 1] };
+            let layers =
+                self.on_gpu(|device, renderer, scene, plan, _| device.layers(renderer, scene, plan, window))?;
+            if let Some(layers) = layers {
+                return Ok(layers);
             }
         }
-        Ok(cpu::Renderer::new(scene, plan)?.row_layers(row))
+        Ok(self.cpu()?.row_layers(row))
+    }
+
+    /// What lies in front of what is visible, which the CPU finds.
+    pub fn in_front(&mut self) -> Result<InFront, InputError> {
+        Ok(self.cpu()?.in_front()?)
+    }
+
+    fn cpu(&mut self) -> Result<Rc<cpu::Renderer<'a>>, InputError> {
+        if let Some(renderer) = &self.cpu {
+            return Ok(renderer.clone());
+        }
+        let renderer = Rc::new(self.stages.time("bvh", || cpu::Renderer::new(self.scene, self.plan))?);
+        Ok(self.cpu.insert(renderer).clone())
+    }
+
+    /// What the CPU makes of all pixels, with a bar that shows how far it is.
+    fn on_all_pixels<T>(
+        &mut self,
+        work: impl FnOnce(&cpu::Renderer, &(dyn Fn(u64) + Sync)) -> Result<T, cpu::Error>,
+    ) -> Result<T, InputError> {
+        let renderer = self.cpu()?;
+        let bar = self.stages.progress(self.plan.view.size.iter().map(|side| u64::from(*side)).product());
+        let made = self.stages.time("render", || work(&renderer, &|done| bar.inc(done)));
+        bar.finish_and_clear();
+        Ok(made?)
     }
 }
 
 #[cfg(feature = "gpu")]
-fn no_picture(error: crate::gpu::Error) -> InputError {
-    InputError::new(format!("the GPU cannot make this picture: {error}"))
-        .help("try a smaller `--size`, or `--backend cpu`")
-}
-
-fn on_cpu(scene: &Scene, plan: &Plan, aovs: bool, stages: &mut Stages) -> Result<Frame, InputError> {
-    let renderer = stages.time("bvh", || cpu::Renderer::new(scene, plan))?;
-    let pixels = plan.view.size.iter().map(|s| u64::from(*s)).product();
-    let bar = stages.progress(pixels);
-    let frame = stages.time("render", || renderer.render(aovs, &|done| bar.inc(done)));
-    bar.finish_and_clear();
-    Ok(frame?)
-}
-
-#[cfg(feature = "gpu")]
-fn on_gpu(
-    device: &crate::gpu::Headless,
-    scene: &Scene,
-    plan: &Plan,
-    engine: crate::gpu::Engine,
-    aovs: bool,
-    stages: &mut Stages,
-) -> Result<Frame, crate::gpu::Error> {
-    use crate::gpu::{RenderOptions, Timings};
-    let mut renderer = stages.time("setup", || device.renderer(scene))?;
-    let mut timings = Some(Timings::default());
-    let frame = device.render_with(&mut renderer, scene, plan, RenderOptions { engine, aovs }, &mut timings)?;
-    if let Some(t) = timings {
-        for (name, seconds) in [
-            ("prepare", t.prepare),
-            ("layers", t.layers),
-            ("visibility", t.visibility),
-            ("resolve", t.resolve),
-            ("readback", t.readback),
-        ] {
-            stages.note(name, seconds);
+impl<'a> Session<'a> {
+    /// What the GPU makes of the plan; `None` where that is left to the CPU.
+    fn on_gpu<T>(
+        &mut self,
+        work: impl FnOnce(&Headless, &mut Renderer, &'a Scene, &'a Plan, &mut Stages) -> Result<T, Error>,
+    ) -> Result<Option<T>, InputError> {
+        let Some(Gpu { device, .. }) = &self.backend.gpu else { return Ok(None) };
+        let renderer = match self.gpu.take() {
+            Some(renderer) => Ok(renderer),
+            None => self.stages.time("setup", || device.renderer(self.scene)),
+        };
+        let made = renderer.and_then(|mut renderer| {
+            let made = work(device, &mut renderer, self.scene, self.plan, &mut self.stages)?;
+            self.gpu = Some(renderer);
+            Ok(made)
+        });
+        match made {
+            Ok(made) => Ok(Some(made)),
+            Err(error) => self.backend.give_up(error, self.stages.messages).map(|()| None),
         }
     }
-    Ok(frame)
+
+    fn frame_on_gpu(&mut self, engine: EngineChoice, aovs: bool) -> Result<Option<Frame>, InputError> {
+        let engine = match engine {
+            EngineChoice::Fused => Engine::Fused,
+            EngineChoice::Peel => Engine::Peel,
+        };
+        self.on_gpu(|device, renderer, scene, plan, stages| {
+            let mut timings = Some(Timings::default());
+            let frame = device.render_with(renderer, scene, plan, RenderOptions { engine, aovs }, &mut timings)?;
+            if let Some(t) = timings {
+                for (name, seconds) in [
+                    ("prepare", t.prepare),
+                    ("layers", t.layers),
+                    ("visibility", t.visibility),
+                    ("resolve", t.resolve),
+                    ("readback", t.readback),
+                ] {
+                    stages.note(name, seconds);
+                }
+            }
+            Ok(frame)
+        })
+    }
 }
 
-#[cfg(all(test, feature = "gpu"))]
+#[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::streams::Messages;
 
+    const QUIET: Messages = Messages { quiet: true, color: clap::ColorChoice::Never };
+
+    fn empty() -> Scene {
+        Scene::new(vec![crate::scene::Model::default()], Vec::new())
+    }
+
+    fn plan(scene: &Scene) -> Plan {
+        let text = "[scene]\nfile = \"none.glb\"\n[image]\nsize = [8, 6]\nsamples = 1";
+        let spec = crate::spec::Spec::parse(text, "test.toml", std::path::Path::new("")).expect("a spec");
+        Plan::new(&spec, scene).expect("a plan")
+    }
+
+    #[test]
+    fn the_cpu_prepares_a_scene_once() {
+        let scene = empty();
+        let plan = plan(&scene);
+        let mut session = Session::new(Backend::cpu("a test"), &scene, &plan, Stages::new(QUIET));
+        session.render(None, true).expect("a picture");
+        session.in_front().expect("an account");
+        assert_eq!(session.row_layers(3).expect("a row").len(), 8);
+        assert_eq!(session.stages.text().matches("bvh").count(), 1, "{}", session.stages.text());
+    }
+
+    #[cfg(feature = "gpu")]
     #[test]
     fn the_cpu_takes_over_only_where_nobody_asked_for_the_gpu() {
         let Ok(adapter) = crate::gpu::choose_named(None) else { return };
-        let device = Box::new(crate::gpu::Headless::new(&adapter).expect("the device opens"));
-        let text = "[scene]\nfile = \"none.glb\"\n[image]\nsize = [8, 6]\nsamples = 1";
-        let spec = crate::spec::Spec::parse(text, "test.toml", std::path::Path::new("")).expect("a spec");
-        let scene = Scene::new(vec![crate::scene::Model::default()], Vec::new());
-        let plan = Plan::new(&spec, &scene).expect("a plan");
+        let device = || Box::new(Headless::new(&adapter).expect("the device opens"));
+        let gpu = |or_cpu| Backend { gpu: Some(Gpu { device: device(), or_cpu }), reason: "a test".into() };
         // A renderer fails for good on a plan of another scene; the CPU then says what is wrong in its own words.
-        let other = Scene::new(vec![crate::scene::Model::default()], Vec::new());
-        let messages = Messages { quiet: true, color: clap::ColorChoice::Never };
-        let stages = || Stages::new(messages);
-        let mut backend = Backend::Gpu { device, or_cpu: false, gave_up: Cell::new(false), messages };
-        let error = backend.maps(&other, &plan, &mut stages()).expect_err("another scene");
+        let (scene, other) = (empty(), empty());
+        let plan = plan(&scene);
+        let mut session = Session::new(gpu(false), &other, &plan, Stages::new(QUIET));
+        let error = session.maps().expect_err("another scene");
         assert!(error.message.starts_with("the GPU cannot make this picture"), "{error}");
-        assert_eq!(backend.name(), "gpu");
-        if let Backend::Gpu { or_cpu, .. } = &mut backend {
-            *or_cpu = true;
-        }
-        let error = backend.maps(&other, &plan, &mut stages()).expect_err("another scene");
+        assert_eq!(session.backend.to_string(), "gpu: a test");
+        let mut session = Session::new(gpu(true), &other, &plan, Stages::new(QUIET));
+        let error = session.maps().expect_err("another scene");
         assert!(error.message.starts_with("the plan was made for another scene"), "{error}");
-        assert_eq!(backend.name(), "cpu");
-        assert!(backend.maps(&scene, &plan, &mut stages()).is_ok(), "the CPU goes on");
+        let told = session.backend.to_string();
+        assert!(told.starts_with("cpu: the GPU cannot make this picture: "), "{told}");
+        let mut session = Session::new(session.backend, &scene, &plan, Stages::new(QUIET));
+        assert!(session.maps().is_ok(), "the CPU goes on");
     }
 }

@@ -170,9 +170,8 @@ impl Account<'_> {
             text += &format!("{:<8} {:>12.2} {ratio:>8.2}{parts}\n", m.name, 1e3 * m.median());
         }
         for (m, Triangles { drawn, asking }) in self.contents.measured.iter().zip(&self.contents.triangles) {
-            let name = &m.name;
-            text +=
-                &format!("\n{name}: draws {drawn} triangles a sample; the fragments of {asking} ask for their lenses");
+            let (name, drawn) = (&m.name, count_of(*drawn, "triangle"));
+            text += &format!("\n{name}: draws {drawn} a sample; the fragments of {asking} ask for their lenses");
         }
         text += &format!("\n\nlenses keep {} on the device\n", bytes(self.contents.storage.total()));
         for (what, count) in self.contents.storage.parts() {

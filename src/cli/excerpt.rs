@@ -15,8 +15,8 @@ pub struct Excerpt {
 }
 
 struct Line {
-    /// Of the whole text.
-    start: usize,
+    /// In the whole text, less its break.
+    whole: Range<usize>,
     /// What is kept of it.
     kept: Range<usize>,
     /// Where that stands in the excerpt.
@@ -29,14 +29,14 @@ impl Excerpt {
         let mut excerpt = Self { text: String::new(), lines: Vec::new() };
         let mut start = 0;
         for line in text.split_inclusive('\n') {
-            let end = start + line.trim_end_matches(['\r', '\n']).len();
-            let kept = kept(text, start..end, places);
-            excerpt.text.push_str(if kept.start > start { "..." } else { "" });
-            excerpt.lines.push(Line { start, kept: kept.clone(), at: excerpt.text.len() });
+            let whole = start..start + line.trim_end_matches(['\r', '\n']).len();
+            let kept = kept(text, whole.clone(), places);
+            excerpt.text.push_str(if kept.start > whole.start { "..." } else { "" });
+            excerpt.lines.push(Line { whole: whole.clone(), kept: kept.clone(), at: excerpt.text.len() });
             excerpt.text.push_str(&text[kept.clone()]);
-            excerpt.text.push_str(if kept.end < end { "..." } else { "" });
+            excerpt.text.push_str(if kept.end < whole.end { "..." } else { "" });
             start += line.len();
-            excerpt.text.push_str(&text[end..start]);
+            excerpt.text.push_str(&text[whole.end..start]);
         }
         excerpt
     }
@@ -44,16 +44,12 @@ impl Excerpt {
     /// Where a place of the whole is; what has been cut off is at the cut.
     pub fn place(&self, place: &Range<usize>) -> Range<usize> {
         let [start, end] = [place.start, place.end].map(|at| {
-            let line = self.lines.partition_point(|line| line.start <= at).checked_sub(1);
+            let line = self.lines.partition_point(|line| line.whole.start <= at).checked_sub(1);
             line.map_or(0, |line| {
-                let Line { kept, at: own, .. } = &self.lines[line];
-                // A line's own end, its break included, stays behind what is kept of it.
-                let behind = if kept.end - kept.start < SHOWN {
-                    at.saturating_sub(kept.start)
-                } else {
-                    at.clamp(kept.start, kept.end) - kept.start
-                };
-                (own + behind).min(self.text.len())
+                let Line { whole, kept, at: own } = &self.lines[line];
+                // The break of a line that is kept to its end stays behind it.
+                let last = if kept.end < whole.end { kept.end } else { usize::MAX };
+                (own + at.clamp(kept.start, last) - kept.start).min(self.text.len())
             })
         });
         start..end.max(start)
@@ -100,5 +96,14 @@ mod tests {
         assert!(excerpt.text[shown.clone()].starts_with("# yyy"), "{}", &excerpt.text[shown]);
         assert_eq!(&excerpt.text[excerpt.place(&last)], "last");
         assert!(excerpt.text.starts_with("first\n...é") && excerpt.text.ends_with("y...\nlast = 1\n"));
+    }
+
+    #[test]
+    fn a_place_ends_where_the_line_is_cut() {
+        let text = format!("x = \"{}\"\ny = 1\n", "é".repeat(300));
+        let excerpt = Excerpt::new(&text, std::slice::from_ref(&(4..606)));
+        let shown = excerpt.place(&(4..606));
+        assert_eq!(&excerpt.text[shown], format!("\"{}", "é".repeat(117)), "the cut is before a character");
+        assert!(excerpt.text.ends_with("é...\ny = 1\n"));
     }
 }

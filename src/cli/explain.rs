@@ -1,15 +1,15 @@
 //! `lenspeel explain` and `lenspeel pick`.
 
 use super::args::{ExplainArgs, ExplainFormat, PickArgs, PickFormat, ViewArgs};
-use super::backend::{self, Backend};
+use super::backend::{self, Backend, Session};
 use super::stages::Stages;
 use super::streams::{Messages, print, print_json, print_text};
-use crate::InputError;
 use crate::explain::{Explanation, PixelAccount, point_text};
 use crate::pick::NamedPick;
 use crate::plan::{Account, Plan};
 use crate::scene::Scene;
 use crate::spec::Spec;
+use crate::{InputError, printable};
 
 /// A spec opened as it is to be seen.
 struct Opened {
@@ -29,6 +29,18 @@ impl Opened {
         Ok(Self { spec, scene, plan })
     }
 
+    fn session(&self, args: &ViewArgs, messages: Messages) -> Result<Session<'_>, InputError> {
+        let backend = match args.backend {
+            Some(choice) => backend::choose(choice)?,
+            None => Backend::cpu("it need not be started"),
+        };
+        // Nothing is said of a choice that nobody made.
+        if args.backend.is_some() {
+            messages.note(&backend);
+        }
+        Ok(Session::new(backend, &self.scene, &self.plan, Stages::new(messages)))
+    }
+
     fn check_pixel(&self, [x, y]: [u32; 2]) -> Result<(), InputError> {
         if self.plan.view.has_pixel([x, y]) {
             return Ok(());
@@ -39,29 +51,21 @@ impl Opened {
     }
 }
 
-fn choose(args: &ViewArgs, messages: Messages) -> Result<Backend, InputError> {
-    // Nothing is said of a choice that nobody made.
-    let Some(choice) = args.backend else { return Ok(Backend::Cpu) };
-    let (backend, choice) = backend::choose(choice, messages)?;
-    messages.note(choice);
-    Ok(backend)
-}
-
 pub fn run(args: &ExplainArgs, messages: Messages) -> Result<(), InputError> {
     let opened = Opened::new(&args.view)?;
     if let Some(pixel) = args.pixel {
         return one_pixel(&opened, pixel, args, messages);
     }
-    let Opened { spec, scene, plan } = &opened;
+    let Opened { spec, plan, .. } = &opened;
     let account = Account::new(spec, plan);
     let explanation = Explanation::new(spec, plan, &account);
     match args.format {
         ExplainFormat::Dot => print(&explanation.dot()),
         ExplainFormat::Mermaid => print(&explanation.mermaid()),
         ExplainFormat::Text | ExplainFormat::Json => {
-            let backend = choose(&args.view, messages)?;
-            let aovs = backend.maps(scene, plan, &mut Stages::new(messages))?;
-            let explanation = explanation.in_view(&aovs, backend::in_front(scene, plan)?, backend.name());
+            let mut session = opened.session(&args.view, messages)?;
+            let aovs = session.maps()?;
+            let explanation = explanation.in_view(&aovs, session.in_front()?, session.backend.name());
             match args.format {
                 ExplainFormat::Json => print_json(&explanation),
                 _ => print_text(&explanation),
@@ -78,9 +82,9 @@ fn one_pixel(opened: &Opened, pixel: [u32; 2], args: &ExplainArgs, messages: Mes
     }
     opened.check_pixel(pixel)?;
     let Opened { spec, scene, plan } = opened;
-    let backend = choose(&args.view, messages)?;
-    let report = &backend.explain(scene, plan, pixel)?;
-    let account = PixelAccount { spec, scene, plan, pixel, report, backend: backend.name() };
+    let mut session = opened.session(&args.view, messages)?;
+    let report = &session.explain(pixel)?;
+    let account = PixelAccount { spec, scene, plan, pixel, report, backend: session.backend.name() };
     match args.format {
         ExplainFormat::Json => print_json(&account),
         _ => print_text(&account),
@@ -92,7 +96,7 @@ pub fn pick(args: &PickArgs, messages: Messages) -> Result<(), InputError> {
     let opened = Opened::new(&args.view)?;
     opened.check_pixel(args.pixel)?;
     let Opened { scene, plan, .. } = &opened;
-    let picked = choose(&args.view, messages)?.pick(scene, plan, args.pixel)?;
+    let picked = opened.session(&args.view, messages)?.pick(args.pixel)?;
     let named = picked.map(|pick| pick.named(scene, plan));
     match args.format {
         PickFormat::Json => print_json(&named),
@@ -116,8 +120,8 @@ fn pick_text([x, y]: [u32; 2], pick: Option<&NamedPick>) -> String {
         }
     };
     let mut rows = vec![
-        ("node", format!("{} {}, in {of}", surface.node.index, surface.path.join(" / "))),
-        ("material", format!("{} {}", surface.material.index, surface.material.name)),
+        ("node", format!("{} {}, in {of}", surface.node.index, printable::whole_name(&surface.path.join(" / ")))),
+        ("material", format!("{} {}", surface.material.index, printable::whole_name(&surface.material.name))),
         what,
         ("position", point_text(*position)),
         ("depth", format!("{depth:.5}")),

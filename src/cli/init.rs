@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::outputs;
 use super::streams::Messages;
-use crate::InputError;
 use crate::output::{Place, folder_of};
 use crate::scene::{Aabb, Model, OpenOptions};
 use crate::spec::Spec;
+use crate::{InputError, printable};
 
 /// What `lenspeel init` looks along: from the right, above and in front.
 const VIEW: DVec3 = DVec3::new(1.0, 0.7, 1.3);
@@ -191,10 +191,13 @@ fn erase_line(model: &Model) -> String {
     }
 }
 
-/// A drawn node with triangles whose name is a pattern for itself.
+/// A node that is seen, with triangles, whose name is a pattern for itself.
 fn is_part(model: &Model, node: usize) -> bool {
     let name = &model.nodes[node].name;
-    model.nodes[node].drawn && !name.is_empty() && !name.contains(['*', '?']) && !model.node_bounds(node).is_empty()
+    model.nodes[node].is_shown()
+        && !name.is_empty()
+        && !name.contains(['*', '?'])
+        && !model.node_bounds(node).is_empty()
 }
 
 fn extent(model: &Model, node: usize) -> f64 {
@@ -207,7 +210,7 @@ fn quoted(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => out.push_str(&format!("\\u{:04X}", c as u32)),
+            c if printable::is_unsafe(c) => out.push_str(&format!("\\u{:04X}", c as u32)),
             c => out.push(c),
         }
     }
@@ -242,7 +245,7 @@ mod tests {
 
     #[test]
     fn strings_are_quoted_for_toml() {
-        assert_eq!(quoted("a\\b\"c\n"), "\"a\\\\b\\\"c\\u000A\"");
+        assert_eq!(quoted("a\\b\"c\n\u{202e}"), "\"a\\\\b\\\"c\\u000A\\u202E\"");
         let text = init_text(&Model::default(), "C:\\models\\a \"b\".glb");
         let table: toml::Table = text.parse().expect("valid TOML");
         assert_eq!(table["scene"]["file"].as_str(), Some("C:\\models\\a \"b\".glb"));

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use super::args::{RenderArgs, ViewChoice};
-use super::backend::{self, Backend};
+use super::backend::{self, Backend, Session};
 use super::outputs;
 use super::stages::Stages;
 use super::streams::Messages;
 use crate::InputError;
-use crate::debug_view::{self, DebugView, Row};
+use crate::debug_view::{DebugView, Row};
 use crate::frame::Frame;
 use crate::legend;
 use crate::output::{encode_aov, encode_picture};
@@ -30,7 +30,7 @@ pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
     spec.image.legend = (spec.image.legend || args.legend) && args.view.is_none();
     // A device takes as long to open as many a scene.
     let (opened, device) = std::thread::scope(|scope| {
-        let device = scope.spawn(|| backend::choose(args.backend, messages));
+        let device = scope.spawn(|| backend::choose(args.backend));
         (open(&spec, &args.open.options(), &mut stages), stages.time("device", || device.join()))
     });
     let (scene, plan) = opened?;
@@ -40,21 +40,22 @@ pub fn run(args: &RenderArgs, messages: Messages) -> Result<(), InputError> {
     if spec.image.legend {
         told_of_legend(&plan, messages);
     }
-    let (backend, choice) = device.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-    messages.note(&choice);
-    let aovs = !args.aov.is_empty() || args.view.is_some();
-    let mut frame = backend.render(&scene, &plan, args.engine, aovs, &mut stages)?;
+    let backend = device.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    messages.note(&backend);
+    let mut session = Session::new(backend, &scene, &plan, stages);
+    let mut frame = session.render(args.engine, !args.aov.is_empty() || args.view.is_some())?;
     if let Some(view) = args.view {
-        let drawn = draw_view(view, args.row, &backend, &scene, &plan, &frame)?;
+        let drawn = draw_view(view, args.row, &mut session, &plan, &frame)?;
         frame = Frame { aovs: frame.aovs, ..drawn };
     }
+    let Session { backend, mut stages, .. } = session;
     let written = stages.time("write", || write_all(args, &plan, &frame))?;
     if args.time {
         messages.answer(&stages.text());
     }
     written.iter().for_each(|path| messages.note(format_args!("wrote {}", outputs::shown(path))));
     let Some(path) = &args.stats else { return Ok(()) };
-    outputs::write(path, stats(args, &plan, backend.name(), &choice, &stages).as_bytes())?;
+    outputs::write(path, stats(args, &plan, &backend, &stages).as_bytes())?;
     messages.note(format_args!("wrote {}", outputs::shown(path)));
     Ok(())
 }
@@ -69,23 +70,21 @@ fn open(spec: &Spec, options: &OpenOptions, stages: &mut Stages) -> Result<(Scen
 fn draw_view(
     view: ViewChoice,
     row: Option<u32>,
-    backend: &Backend,
-    scene: &Scene,
+    session: &mut Session,
     plan: &Plan,
     frame: &Frame,
 ) -> Result<Frame, InputError> {
     let aovs = frame.aovs.as_ref().ok_or_else(|| InputError::new("a debug view needs the maps of its picture"))?;
     let view = match view {
         ViewChoice::Layers => DebugView::Layers,
-        ViewChoice::Regions => DebugView::Regions,
-        ViewChoice::Order => DebugView::Order,
+        ViewChoice::Regions => DebugView::Regions(session.in_front()?),
+        ViewChoice::Order => DebugView::Order(session.in_front()?),
         ViewChoice::DepthIntervals => {
             let y = row.unwrap_or(plan.view.size[1] / 2);
-            let layers = backend.row_layers(scene, plan, y)?;
-            return Ok(debug_view::draw_section(plan, frame, aovs, &Row { y, layers }));
+            DebugView::DepthIntervals(Row { y, layers: session.row_layers(y)? })
         }
     };
-    Ok(debug_view::draw(view, plan, frame, aovs, &backend::in_front(scene, plan)?))
+    Ok(view.draw(plan, frame, aovs))
 }
 
 /// Whether the legend shows all that was asked for.
@@ -108,7 +107,7 @@ fn check_row(args: &RenderArgs, spec: &Spec) -> Result<(), InputError> {
     if row < rows {
         return Ok(());
     }
-    Err(InputError::new(format!("the picture has {rows} rows, so there is no row {row}"))
+    Err(InputError::new(format!("the picture has {}, so there is no row {row}", count_of(rows, "row")))
         .help("rows count from 0 at the top"))
 }
 
@@ -131,13 +130,12 @@ fn write_all(args: &RenderArgs, plan: &Plan, frame: &Frame) -> Result<Vec<PathBu
     Ok(written)
 }
 
-fn stats(args: &RenderArgs, plan: &Plan, backend: &str, choice: &str, stages: &Stages) -> String {
+fn stats(args: &RenderArgs, plan: &Plan, backend: &Backend, stages: &Stages) -> String {
     let engine = args.engine.and_then(|e| e.to_possible_value()).map_or("fused".into(), |e| e.get_name().to_string());
-    let reason = choice.split_once(": ").map_or("", |(_, reason)| reason);
     let stats = serde_json::json!({
-        "backend": backend,
-        "reason": reason,
-        "engine": (backend == "gpu").then_some(engine),
+        "backend": backend.name(),
+        "reason": backend.reason,
+        "engine": (backend.name() == "gpu").then_some(engine),
         "size": plan.view.size,
         "samples": plan.samples,
         "triangles": plan.items.iter().filter(|item| !item.is_simplified()).map(|item| u64::from(item.triangles)).sum::<u64>(),

@@ -9,9 +9,9 @@ use miette::{
 };
 
 use super::excerpt::Excerpt;
-use crate::InputError;
 use crate::error::shortened;
 use crate::spec::Source;
+use crate::{InputError, printable};
 
 /// Of several errors so many are shown.
 const MOST: usize = 20;
@@ -48,9 +48,11 @@ struct Report<'a> {
 impl<'a> Report<'a> {
     fn new(error: &'a InputError) -> Self {
         let places: Vec<Range<usize>> = error.labels.iter().map(|(place, _)| place.clone()).collect();
-        let excerpt = error.source_text.as_ref().map(|source| (source, Excerpt::new(&source.text, &places)));
+        let excerpt =
+            error.source_text.as_ref().map(|source| (source, Excerpt::new(&printable::lines(&source.text), &places)));
         let place = |place: &Range<usize>| excerpt.as_ref().map_or(place.clone(), |(_, excerpt)| excerpt.place(place));
-        let labels = error.labels.iter().map(|(own, text)| (place(own), shortened(text).into_owned())).collect();
+        let words = |text: &str| shortened(&printable::message(text)).into_owned();
+        let labels = error.labels.iter().map(|(own, text)| (place(own), words(text))).collect();
         let source = excerpt.map(|(source, excerpt)| Text::new(source, excerpt));
         Self { error, source, labels }
     }
@@ -66,7 +68,9 @@ struct Text {
 
 impl Text {
     fn new(source: &Source, excerpt: Excerpt) -> Self {
-        let part = |part: Range<usize>| (excerpt.place(&part), source.part_name(part.start).to_owned());
+        let part = |part: Range<usize>| {
+            (excerpt.place(&part), printable::whole_name(source.part_name(part.start)).into_owned())
+        };
         Self { parts: source.parts().map(part).collect(), text: excerpt.text }
     }
 }

@@ -8,7 +8,7 @@ use clap::ColorChoice;
 
 use super::report::report;
 use super::wrap::Wrapped;
-use crate::InputError;
+use crate::{InputError, printable};
 
 /// Columns of text on a wide terminal.
 const WIDEST: usize = 100;
@@ -16,9 +16,9 @@ const WIDEST: usize = 100;
 /// Whether there is no standard output at all.
 pub static IS_CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Text to standard output.
+/// Text to standard output, without what would steer a terminal: names of models may hold anything.
 pub fn print(text: &str) -> Result<(), InputError> {
-    write_out(|out| out.write_all(text.as_bytes()))
+    write_out(|out| out.write_all(printable::message(text).as_bytes()))
 }
 
 /// The same as it comes, there may be very much; on a terminal in lines that fit it.
@@ -39,8 +39,8 @@ pub fn print_text(text: &impl Display) -> Result<(), InputError> {
 
 /// The same for JSON.
 pub fn print_json(value: &impl serde::Serialize) -> Result<(), InputError> {
-    write_out(|mut out| {
-        serde_json::to_writer_pretty(&mut out, value)?;
+    write_out(|out| {
+        serde_json::to_writer_pretty(Json(&mut *out), value)?;
         out.write_all(b"\n")
     })
 }
@@ -84,6 +84,20 @@ fn terminal_width() -> Option<usize> {
     Some(usize::from(columns).clamp(20, WIDEST))
 }
 
+/// JSON, which serde_json hands on in whole characters.
+struct Json<'a>(&'a mut dyn Write);
+
+impl Write for Json<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write_all(printable::json(&String::from_utf8_lossy(bytes)).as_bytes())?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
 /// Text goes to a file or a terminal as bytes.
 struct Text<'a> {
     out: &'a mut dyn Write,
@@ -92,7 +106,7 @@ struct Text<'a> {
 
 impl fmt::Write for Text<'_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.out.write_all(text.as_bytes()).map_err(|error| {
+        self.out.write_all(printable::message(text).as_bytes()).map_err(|error| {
             self.failed = Some(error);
             fmt::Error
         })
@@ -112,13 +126,13 @@ impl Messages {
     }
 
     pub fn warning(self, text: impl Display) {
-        say(&format!("warning: {text}\n"));
+        say(&printable::message(&format!("warning: {text}\n")));
     }
 
     /// Left out where the user wants quiet.
     pub fn note(self, text: impl Display) {
         if !self.quiet {
-            say(&format!("{text}\n"));
+            say(&printable::message(&format!("{text}\n")));
         }
     }
 

@@ -1,16 +1,8 @@
 //! Pixels to draw on, with text.
 
-use std::convert::Infallible;
-
-use embedded_graphics::Drawable;
-use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::{OriginDimensions, Point, Size};
-use embedded_graphics::mono_font::MonoTextStyle;
 use embedded_graphics::mono_font::iso_8859_1::FONT_8X13;
-use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use embedded_graphics::text::{Baseline, Text};
 
-use super::palette::Rgb;
+use crate::drawing::{Rgb, draw_text};
 use crate::frame::Frame;
 
 /// Pixels of a letter.
@@ -42,9 +34,8 @@ impl Canvas {
     }
 
     /// One line of text, its top left corner at `at`.
-    pub fn text(&mut self, text: &str, at: [i32; 2], [r, g, b]: Rgb) {
-        let style = MonoTextStyle::new(&FONT_8X13, Rgb888::new(r, g, b));
-        let Ok(_) = Text::with_baseline(text, Point::new(at[0], at[1]), style, Baseline::Top).draw(self);
+    pub fn text(&mut self, text: &str, at: [i32; 2], color: Rgb) {
+        draw_text(&FONT_8X13, text, at, |at| self.set(at, color));
     }
 
     /// The same around a centre, on a dark ground.
@@ -64,25 +55,4 @@ impl Canvas {
 /// Pixels that a line of text takes.
 pub fn width(text: &str) -> i32 {
     LETTER[0] * text.chars().count() as i32
-}
-
-impl OriginDimensions for Canvas {
-    fn size(&self) -> Size {
-        Size::new(self.size[0] as u32, self.size[1] as u32)
-    }
-}
-
-impl DrawTarget for Canvas {
-    type Color = Rgb888;
-    type Error = Infallible;
-
-    fn draw_iter<I>(&mut self, pixels: I) -> Result<(), Infallible>
-    where
-        I: IntoIterator<Item = embedded_graphics::Pixel<Rgb888>>,
-    {
-        for embedded_graphics::Pixel(at, color) in pixels {
-            self.set([at.x, at.y], [color.r(), color.g(), color.b()]);
-        }
-        Ok(())
-    }
 }

@@ -1,7 +1,8 @@
 //! What the colours mean, beside the picture.
 
 use super::canvas::{Canvas, LETTER, LINE, width};
-use super::palette::{DIM_TEXT, Rgb, TEXT};
+use super::palette::{DIM_TEXT, TEXT};
+use crate::drawing::Rgb;
 use crate::output::stack;
 use crate::plan::{Plan, Region};
 

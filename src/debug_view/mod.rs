@@ -17,28 +17,28 @@ pub use section::Row;
 use crate::frame::{Aovs, Frame, InFront};
 use crate::plan::Plan;
 
-/// What a debug view shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What a debug view shows, with what it needs beside the maps of a picture.
+#[derive(Debug, Clone, PartialEq)]
 pub enum DebugView {
     /// How many layers each pixel's ray has.
     Layers,
     /// The region of each pixel's nearest surface, opaque or not.
-    Regions,
+    Regions(InFront),
     /// Who acts on each pixel's visible fragment: the topmost lens, striped with those below.
-    Order,
+    Order(InFront),
+    /// A section along one row of the picture: columns to the right, depth upwards, the layers in the colours of their
+    /// regions, and the visible surface as a line.
+    DepthIntervals(Row),
 }
 
-/// The debug view of a picture of `plan` with these maps, as large as it needs to be.
-pub fn draw(view: DebugView, plan: &Plan, picture: &Frame, aovs: &Aovs, in_front: &InFront) -> Frame {
-    match view {
-        DebugView::Layers => layers::draw(picture, aovs),
-        DebugView::Regions => regions::draw(plan, picture, &in_front.nearest_regions(aovs)),
-        DebugView::Order => order::draw(plan, picture, aovs, in_front),
+impl DebugView {
+    /// The view of a picture of `plan` with these maps, as large as it needs to be.
+    pub fn draw(&self, plan: &Plan, picture: &Frame, aovs: &Aovs) -> Frame {
+        match self {
+            DebugView::Layers => layers::draw(picture, aovs),
+            DebugView::Regions(in_front) => regions::draw(plan, picture, &in_front.nearest_regions(aovs)),
+            DebugView::Order(in_front) => order::draw(plan, picture, aovs, in_front),
+            DebugView::DepthIntervals(row) => section::draw(plan, picture, aovs, row),
+        }
     }
-}
-
-/// A section along one row of a picture: columns to the right, depth upwards, the layers in the colours of their
-/// regions, and the visible surface as a line.
-pub fn draw_section(plan: &Plan, picture: &Frame, aovs: &Aovs, row: &Row) -> Frame {
-    section::draw(plan, picture, aovs, row)
 }

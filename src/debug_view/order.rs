@@ -1,8 +1,9 @@
 //! Who acts on each pixel's visible fragment, in the total order.
 
 use super::legend::{Entry, Legend, share_text};
-use super::palette::{Rgb, dimmed, distinct, mix};
+use super::palette::{dimmed, distinct, mix};
 use super::sheet::Map;
+use crate::drawing::Rgb;
 use crate::frame::{Aovs, Frame, InFront};
 use crate::output::Actor;
 use crate::plan::{LensSet, Plan};

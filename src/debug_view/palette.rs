@@ -4,11 +4,9 @@ use std::collections::HashMap;
 
 use csscolorparser::Color;
 
+use crate::drawing::Rgb;
 use crate::frame::Aovs;
 use crate::plan::{Plan, Region};
-
-/// sRGB.
-pub type Rgb = [u8; 3];
 
 pub const GROUND: Rgb = [22, 24, 28];
 pub const TEXT: Rgb = [228, 230, 234];

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use super::canvas::{Canvas, LETTER, LINE, width};
 use super::legend::{Entry, Legend, region_lines};
-use super::palette::{DIM_TEXT, GROUND, RegionColors, Rgb, TEXT, mix};
+use super::palette::{DIM_TEXT, GROUND, RegionColors, TEXT, mix};
 use super::sheet::{MARGIN, zoom};
+use crate::drawing::{Rgb, round_step};
 use crate::frame::{Aovs, Frame};
 use crate::lens::LayerStart;
 use crate::plan::{Plan, Region};
@@ -20,6 +21,7 @@ const STRIP: i32 = 20;
 const AXIS: i32 = 9 * LETTER[0];
 
 /// A row of a picture with the layers of the rays through its pixel centres, from left to right.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     pub y: u32,
     pub layers: Vec<Vec<LayerStart>>,
@@ -119,7 +121,7 @@ fn depths(plan: &Plan, columns: usize, aovs: &Aovs, row: &Row) -> [f64; 2] {
 fn draw_axis(canvas: &mut Canvas, plot: &Plot) {
     let [low, high] = plot.depths;
     canvas.text("depth", [MARGIN, MARGIN - 4], DIM_TEXT);
-    let step = nice((high - low) * TICKS / f64::from(plot.size[1]));
+    let step = round_step((high - low) * TICKS / f64::from(plot.size[1]));
     let decimals = (-step.log10().floor()).max(0.0) as usize;
     for number in (low / step).ceil() as i64..=(high / step).floor() as i64 {
         let depth = number as f64 * step;
@@ -130,12 +132,6 @@ fn draw_axis(canvas: &mut Canvas, plot: &Plot) {
         let text = format!("{depth:.decimals$}");
         canvas.text(&text, [plot.min[0] - 10 - width(&text), y - LETTER[1] / 2], TEXT);
     }
-}
-
-/// The least of 1, 2 and 5 times a power of ten that is not below.
-fn nice(step: f64) -> f64 {
-    let power = 10f64.powf(step.log10().floor());
-    [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|nice| *nice >= step).unwrap_or(10.0 * power)
 }
 
 /// A dash a column, joined to the one before where both are of one surface.

@@ -3,7 +3,8 @@
 use super::canvas::{Canvas, LETTER, width};
 use super::label::deepest;
 use super::legend::Legend;
-use super::palette::{GROUND, Rgb, TEXT};
+use super::palette::{GROUND, TEXT};
+use crate::drawing::Rgb;
 use crate::frame::Frame;
 
 /// Pixels around and between the parts.

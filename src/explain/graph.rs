@@ -8,10 +8,10 @@ use crate::plan::Key;
 /// What a line of the graph says of the two lenses it joins.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Link {
-    /// By `over` or `under`; with the key and its line.
-    Above(&'static str, usize),
-    /// By `hides`, with its line.
-    Hides(usize),
+    /// By `over` or `under`; with the key and its place.
+    Above(&'static str, String),
+    /// By `hides`, with its place.
+    Hides(String),
     /// The upper one overrides all below it, and the two overlap.
     Overrides,
     /// Only the order of the file separates them.
@@ -21,8 +21,8 @@ enum Link {
 impl Link {
     fn label(&self) -> String {
         match self {
-            Link::Above(key, line) => format!("{key}, line {line}"),
-            Link::Hides(line) => format!("hides, line {line}"),
+            Link::Above(key, place) => format!("{key}, {place}"),
+            Link::Hides(place) => format!("hides, {place}"),
             Link::Overrides => "overrides".into(),
             Link::Undecided => "undecided".into(),
         }
@@ -36,10 +36,11 @@ impl Explanation<'_> {
         let graph = &plan.graph.graph;
         let declared = graph.edge_indices().filter_map(|edge| {
             let (below, above) = graph.edge_endpoints(edge)?;
-            let line = spec.source.line(graph[edge].span.start);
+            // In a graph's text a quote would end the label.
+            let place = spec.source.spot(graph[edge].span.start).replace('"', "'");
             let link = match graph[edge].key {
-                Key::Hides => Link::Hides(line),
-                key => Link::Above(key.name(), line),
+                Key::Hides => Link::Hides(place),
+                key => Link::Above(key.name(), place),
             };
             Some((below.index(), above.index(), link))
         });

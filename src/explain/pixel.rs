@@ -11,8 +11,10 @@ use crate::output::{Actor, Entry};
 use crate::pick::{NamedSurface, places};
 use crate::pixel::{Fragment, PixelReport, Removed, Survivor, cap_maker};
 use crate::plan::{LensSet, Plan, Reasons, Region, filter_name};
+use crate::printable;
 use crate::scene::{Scene, Selections};
 use crate::spec::{By, Filter, Matches, Spec};
+use crate::words::count_of;
 
 /// A pixel's report with all that its account needs. `Display` gives the text, `Serialize` the JSON.
 pub struct PixelAccount<'a> {
@@ -30,7 +32,7 @@ impl Display for PixelAccount<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { plan, pixel: [x, y], report, backend, .. } = self;
         let [width, height] = plan.view.size;
-        writeln!(f, "pixel {x},{y} of {width} x {height} ({backend}): {} layers", report.layers.len())?;
+        writeln!(f, "pixel {x},{y} of {width} x {height} ({backend}): {}", count_of(report.layers.len(), "layer"))?;
         writeln!(f, "  {:>12}    {:>12}  lenses around the ray", "from depth", "to")?;
         for (start, end) in self.stretches() {
             let region = Region { set: start.set, stack: plan.stack_of(start.set) };
@@ -88,7 +90,7 @@ impl PixelAccount<'_> {
         let Fragment { instance, triangle, region, .. } = *fragment;
         let depth = self.plan.view.from_eye(f64::from(fragment.depth));
         let surface = NamedSurface::new(self.scene, self.plan, instance, triangle, region);
-        let (node, material) = (surface.node.name, surface.material.name);
+        let [node, material] = [&surface.node.name, &surface.material.name].map(|name| printable::whole_name(name));
         let what = match cap_maker(triangle) {
             Some(maker) => format!("cap of {}", actor(self.plan, maker)),
             None => format!("triangle {triangle}"),
@@ -121,15 +123,15 @@ impl PixelAccount<'_> {
         let known = Selections::default();
         let because = |rank: usize| {
             let lens = &self.spec.lenses[self.plan.lenses[rank].index];
-            let line = |matches: &Matches| {
+            let place = |matches: &Matches| {
                 let first = matches.nodes.iter().chain(&matches.materials).map(|p| p.span.start).min();
-                self.spec.source.line(first.unwrap_or_default())
+                self.spec.source.spot(first.unwrap_or_default())
             };
             if !item.scope.contains(rank) && !item.shown_by.contains(rank) {
                 return Some(match item.subject(self.scene, &known).is_in(&lens.except) {
-                    true => format!("its `except` in line {} names this node or material", line(&lens.except)),
+                    true => format!("its `except` in {} names this node or material", place(&lens.except)),
                     false => {
-                        format!("its `only` in line {} names neither this node nor its material", line(&lens.only))
+                        format!("its `only` in {} names neither this node nor its material", place(&lens.only))
                     }
                 });
             }

@@ -41,9 +41,9 @@ impl Explanation<'_> {
         let Self { spec, plan, account, .. } = self;
         writeln!(f, "order, lowest first")?;
         for (rank, lens) in plan.lenses.iter().enumerate() {
-            let line = spec.source.line(spec.lenses[lens.index].name.span.start);
+            let place = spec.source.spot(spec.lenses[lens.index].name.span.start);
             let filters: Vec<&str> = lens.filter_names().collect();
-            write!(f, "  {}. {} (line {line}): {}", rank + 1, lens.name, filters.join(", "))?;
+            write!(f, "  {}. {} ({place}): {}", rank + 1, lens.name, filters.join(", "))?;
             if lens.overrides {
                 write!(f, "; overrides all below")?;
             } else if !lens.hides.is_empty() {

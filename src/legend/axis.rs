@@ -1,5 +1,7 @@
 //! Round numbers along a range of values.
 
+use crate::drawing::round_step;
+
 /// What values are written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
@@ -23,7 +25,7 @@ pub fn ticks([low, high]: [f64; 2], unit: Unit, room: usize) -> Vec<Tick> {
     }
     let tick = |value: f64, step: f64| Tick { at: (value - low) / length, text: number(value, step, unit) };
     for count in (2..=5).rev() {
-        let step = round_step(length / f64::from(count), unit);
+        let step = step(length / f64::from(count), unit);
         let slack = 1e-9 * length;
         let numbers = ((low - slack) / step).ceil() as i64..=((high + slack) / step).floor() as i64;
         let ticks: Vec<Tick> = numbers.map(|n| tick(n as f64 * step, step)).collect();
@@ -35,13 +37,12 @@ pub fn ticks([low, high]: [f64; 2], unit: Unit, room: usize) -> Vec<Tick> {
     vec![tick(low, length * 0.01), tick(high, length * 0.01)]
 }
 
-/// The least round step that is not below.
-fn round_step(step: f64, unit: Unit) -> f64 {
-    if unit == Unit::Degrees && step > 10.0 {
-        return [15.0, 30.0, 45.0, 90.0].into_iter().find(|round| *round >= step).unwrap_or(90.0);
+/// The least step that is not below and round for the unit.
+fn step(least: f64, unit: Unit) -> f64 {
+    if unit == Unit::Degrees && least > 10.0 {
+        return [15.0, 30.0, 45.0, 90.0].into_iter().find(|round| *round >= least).unwrap_or(90.0);
     }
-    let power = 10f64.powf(step.log10().floor());
-    [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|round| *round >= step).unwrap_or(10.0 * power)
+    round_step(least)
 }
 
 /// A number with the digits that it has, six at most.

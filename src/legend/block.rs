@@ -1,8 +1,9 @@
 //! One quantity of the legend: its name, its colours or lines, its values.
 
 use super::axis::{self, Unit, ticks};
-use super::overlay::{Overlay, Rgb, Type};
+use super::overlay::{Overlay, Type};
 use crate::color_map;
+use crate::drawing::Rgb;
 use crate::plan::{LegendEntry, LegendLook, Plan};
 use crate::spec::Quantity;
 

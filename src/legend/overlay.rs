@@ -1,19 +1,10 @@
 //! Drawing over a finished picture.
 
-use std::convert::Infallible;
-
-use embedded_graphics::Drawable;
-use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::geometry::{OriginDimensions, Point, Size};
+use embedded_graphics::mono_font::MonoFont;
 use embedded_graphics::mono_font::iso_8859_1::{FONT_6X10, FONT_8X13, FONT_10X20};
-use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
-use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use embedded_graphics::text::{Baseline, Text};
 
+use crate::drawing::{Rgb, draw_text};
 use crate::frame::Frame;
-
-/// sRGB.
-pub type Rgb = [u8; 3];
 
 /// Letters of a size that suits a picture.
 #[derive(Clone, Copy)]
@@ -66,9 +57,8 @@ impl<'a> Overlay<'a> {
     }
 
     /// One line of text, its upper left corner at `at`.
-    pub fn text(&mut self, text: &str, at: [i32; 2], [r, g, b]: Rgb) {
-        let style = MonoTextStyle::new(self.letters.font, Rgb888::new(r, g, b));
-        let Ok(_) = Text::with_baseline(text, Point::new(at[0], at[1]), style, Baseline::Top).draw(self);
+    pub fn text(&mut self, text: &str, at: [i32; 2], color: Rgb) {
+        draw_text(self.letters.font, text, at, |at| self.fill(at, [1, 1], color, 1.0));
     }
 }
 
@@ -78,26 +68,4 @@ fn over(below: [u8; 4], color: Rgb, opacity: f32) -> [u8; 4] {
     let alpha = opacity + under;
     let mix = |c: usize| (f32::from(color[c]) * opacity + f32::from(below[c]) * under) / alpha.max(f32::MIN_POSITIVE);
     [mix(0), mix(1), mix(2), alpha * 255.0].map(|value| value.round() as u8)
-}
-
-impl OriginDimensions for Overlay<'_> {
-    fn size(&self) -> Size {
-        let [width, height] = self.frame.size;
-        Size::new(width, height)
-    }
-}
-
-impl DrawTarget for Overlay<'_> {
-    type Color = Rgb888;
-    type Error = Infallible;
-
-    fn draw_iter<I>(&mut self, pixels: I) -> Result<(), Infallible>
-    where
-        I: IntoIterator<Item = embedded_graphics::Pixel<Rgb888>>,
-    {
-        for embedded_graphics::Pixel(at, color) in pixels {
-            self.fill([at.x, at.y], [1, 1], [color.r(), color.g(), color.b()], 1.0);
-        }
-        Ok(())
-    }
 }

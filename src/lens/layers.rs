@@ -70,9 +70,4 @@ impl RayLayers {
         let before = |start: &&LayerStart| self.merging.starts_boundary(start.depth, boundary);
         self.starts.iter().rev().find(before).or(self.starts.first()).map_or(LensSet::EMPTY, |start| start.set)
     }
-
-    /// One more than the distinct boundaries between near and far.
-    pub fn count(&self) -> usize {
-        self.starts.len().max(1)
-    }
 }

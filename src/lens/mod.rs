@@ -19,6 +19,7 @@ pub use build::{Placement, build_volume};
 pub use form::{Crossing, Form, Span};
 pub use halfspaces::{Plane, Polyhedron};
 pub use layers::{LayerStart, RayLayers};
+pub(crate) use mesh::count_triangles;
 pub use mesh::{LensMeshes, MeshForm, MeshNode, MeshSolid, TriangleTree};
 pub use rect::PixelRect;
 pub use set::{LensSet, MAX_LENSES, MAX_RULES};

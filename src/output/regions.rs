@@ -42,13 +42,13 @@ pub enum Actor {
     Rule(NamedRule),
 }
 
-/// A rule: JSON has its number, people are told its line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A rule: JSON has its number, people are told where it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedRule {
     /// Among the `[[overlap]]` of the file, from 0.
     pub number: usize,
-    /// Of its condition, from 1.
-    pub line: usize,
+    /// See [`Rule::name`](crate::plan::Rule::name).
+    pub name: String,
 }
 
 impl Serialize for NamedRule {
@@ -107,7 +107,7 @@ impl Actor {
     /// Who stands at a rank of stacks.
     pub fn of(plan: &Plan, rank: usize) -> Self {
         match plan.rule_of(rank) {
-            Some(number) => Actor::Rule(NamedRule { number, line: plan.rules[number].line }),
+            Some(number) => Actor::Rule(NamedRule { number, name: plan.rules[number].name.clone() }),
             None => Actor::Lens(plan.lenses[rank].name.clone()),
         }
     }
@@ -116,8 +116,7 @@ impl Actor {
 impl std::fmt::Display for Actor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Actor::Lens(name) => f.write_str(name),
-            Actor::Rule(NamedRule { line, .. }) => write!(f, "rule in line {line}"),
+            Actor::Lens(name) | Actor::Rule(NamedRule { name, .. }) => f.write_str(name),
         }
     }
 }

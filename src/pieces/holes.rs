@@ -1,6 +1,7 @@
 //! Lids over small holes, so that rays which pass one count as others do.
 
 use glam::DVec3;
+use petgraph::unionfind::UnionFind;
 
 use super::patches::{Border, Patches, area};
 
@@ -14,15 +15,18 @@ const LARGEST_SHARE: f64 = 0.25;
 /// whatever shape the hole has.
 pub fn lids(vertices: &[DVec3], patches: &Patches, borders: &[Border]) -> Vec<Vec<[u32; 3]>> {
     let mut lids: Vec<Vec<[u32; 3]>> = vec![Vec::new(); patches.pieces.len()];
-    // Corners of one hole.
-    let mut parents: Vec<u32> = if borders.is_empty() { Vec::new() } else { (0..vertices.len() as u32).collect() };
-    for Border { ends: [a, b], .. } in borders {
-        let (a, b) = (find(&mut parents, *a), find(&mut parents, *b));
-        parents[a.max(b) as usize] = a.min(b);
+    if borders.is_empty() {
+        return lids;
     }
+    let mut holes = UnionFind::<u32>::new(vertices.len());
+    borders.iter().for_each(|Border { ends: [a, b], .. }| _ = holes.union(*a, *b));
+    let holes = holes.into_labeling();
+    // Of each hole, its first corner.
+    let mut firsts = vec![u32::MAX; vertices.len()];
+    (0u32..).zip(&holes).for_each(|(vertex, hole)| firsts[*hole as usize] = firsts[*hole as usize].min(vertex));
     for Border { piece, ends, net } in borders {
         let [a, b] = if *net > 0 { *ends } else { [ends[1], ends[0]] };
-        let apex = find(&mut parents, a);
+        let apex = firsts[holes[a as usize] as usize];
         if apex != a && apex != b {
             lids[*piece as usize].extend(std::iter::repeat_n([apex, b, a], net.unsigned_abs() as usize));
         }
@@ -33,12 +37,4 @@ pub fn lids(vertices: &[DVec3], patches: &Patches, borders: &[Border]) -> Vec<Ve
         }
     }
     lids
-}
-
-fn find(parents: &mut [u32], mut at: u32) -> u32 {
-    while parents[at as usize] != at {
-        parents[at as usize] = parents[parents[at as usize] as usize];
-        at = parents[at as usize];
-    }
-    at
 }

@@ -95,7 +95,7 @@ impl Around {
 
 /// The edges of a surface, once corners at the same place are one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Edges {
+pub struct EdgeCounts {
     pub all: usize,
     /// Of one triangle: the surface ends there.
     pub open: usize,
@@ -108,13 +108,15 @@ pub struct Edges {
 /// The pieces of a surface.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pieces {
-    pub edges: Edges,
+    pub edges: EdgeCounts,
     /// Pieces that enclose something, those with holes that are closed over among them.
     pub closed: usize,
     /// Pieces with holes that are closed over.
     pub mended: usize,
     /// Pieces that enclose nothing.
     pub open: usize,
+    /// Closed pieces of which it is not known whether they are holes in others: too much would have to be looked at.
+    pub unsorted: usize,
     /// Of each triangle, its piece.
     pub numbers: Vec<u32>,
     /// Of each triangle.
@@ -162,6 +164,7 @@ impl Pieces {
             closed,
             mended: mended.iter().filter(|is| **is).count(),
             open: (0..count).filter(|piece| !is_closed(*piece) && !patches.pieces[*piece].is_empty).count(),
+            unsorted: 0,
             roles: (0..triangles.len()).map(of_triangle).collect(),
             lids: lids.collect(),
             numbers: patches.numbers,

@@ -10,7 +10,7 @@ use crate::lens::TriangleTree;
 const ANYWHERE: DVec3 = DVec3::new(0.391_287, 0.817_213, 0.423_119);
 /// How far towards its middle a piece is asked where it lies, beside its outermost corners.
 const INWARDS: f64 = 1e-3;
-/// So many crossings are looked at; pieces that are left then stay as they face.
+/// So many crossings are looked at; pieces that are left then stay as they face ([`Pieces::unsorted`]).
 const MOST_CROSSINGS: usize = 1 << 26;
 
 /// A closed piece that faces one way.
@@ -34,7 +34,8 @@ pub fn turn(vertices: &[DVec3], triangles: &[[u32; 3]], pieces: &mut Pieces) {
         return;
     }
     solids.sort_by(|a, b| b.volume.abs().total_cmp(&a.volume.abs()).then(a.piece.cmp(&b.piece)));
-    let turned = Nesting::new(vertices, &counted, &solids).turned();
+    let (turned, sorted) = Nesting::new(vertices, &counted, &solids).turned(MOST_CROSSINGS);
+    pieces.unsorted = solids.len() - sorted;
     let of_triangles = pieces.roles.iter_mut().zip(&pieces.numbers);
     let all = of_triangles.chain(pieces.lids.iter_mut().map(|(_, role, piece)| (role, &*piece)));
     for (role, piece) in all.filter(|(role, _)| role.faces_one_way()) {
@@ -94,31 +95,28 @@ impl<'a> Nesting<'a> {
         Self { solids, counted, tree: TriangleTree::new(vertices.to_vec(), &corners), places }
     }
 
-    /// Of each piece, whether it is to be turned round.
-    fn turned(&self) -> Vec<bool> {
+    /// Of each piece, whether it is to be turned round; and of how many that is known, by so many crossings.
+    fn turned(&self, most: usize) -> (Vec<bool>, usize) {
         let mut turned = vec![false; self.places.len()];
-        let mut crossings = 0;
-        for solid in self.solids {
-            let Some(asked) = self.hole_in(solid, &turned, &mut crossings) else { break };
+        let mut left = most;
+        for (sorted, solid) in self.solids.iter().enumerate() {
+            let Some(asked) = self.hole_in(solid, &turned, &mut left) else { return (turned, sorted) };
             let faces_outwards = solid.volume > 0.0;
             turned[solid.piece as usize] = match asked {
                 Some(around) => (around > 0) == faces_outwards,
                 None => !faces_outwards,
             };
         }
-        turned
+        (turned, self.solids.len())
     }
 
     /// How often what it is a hole in winds around it, if it is one. `None` where too much has been looked at.
-    fn hole_in(&self, solid: &Solid, turned: &[bool], crossings: &mut usize) -> Option<Option<i32>> {
+    fn hole_in(&self, solid: &Solid, turned: &[bool], left: &mut usize) -> Option<Option<i32>> {
         let middle = solid.outermost.iter().sum::<DVec3>() / 6.0;
         let mut around = 0;
         for corner in &solid.outermost {
             let larger = self.larger(corner.lerp(middle, INWARDS), solid, turned);
-            *crossings += larger.crossings;
-            if *crossings > MOST_CROSSINGS {
-                return None;
-            }
+            *left = left.checked_sub(larger.crossings)?;
             let faces_it = larger.as_they_face != 0 && (larger.as_they_face > 0) != (solid.volume > 0.0);
             if !faces_it || larger.as_turned == 0 {
                 return Some(None);
@@ -142,5 +140,31 @@ impl<'a> Nesting<'a> {
             }
         });
         larger
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pieces::Pieces;
+
+    #[test]
+    fn what_is_left_when_too_much_has_been_looked_at_is_counted() {
+        // Two tetrahedra, one in the other, which faces inwards.
+        let corner =
+            |size: f64| [[0.0; 3], [size, 0.0, 0.0], [0.0, size, 0.0], [0.0, 0.0, size]].map(DVec3::from_array);
+        let vertices: Vec<DVec3> = corner(0.8).into_iter().chain(corner(0.1).map(|p| p + DVec3::splat(0.05))).collect();
+        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let inner = faces.map(|[a, b, c]: [u32; 3]| [a + 4, c + 4, b + 4]);
+        let triangles: Vec<[u32; 3]> = faces.into_iter().chain(inner).collect();
+        let pieces = Pieces::new(&vertices, &triangles);
+        assert_eq!((pieces.closed, pieces.unsorted), (2, 0));
+        let counted: Vec<([u32; 3], Role, u32)> =
+            triangles.iter().zip(&pieces.numbers).map(|(corners, piece)| (*corners, Role::PLAIN, *piece)).collect();
+        let mut solids = solids(&vertices, &counted);
+        solids.sort_by(|a, b| b.volume.abs().total_cmp(&a.volume.abs()));
+        let nesting = Nesting::new(&vertices, &counted, &solids);
+        assert_eq!(nesting.turned(1000).1, 2);
+        assert_eq!(nesting.turned(0).1, 0);
     }
 }

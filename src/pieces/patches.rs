@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::Edges;
+use super::EdgeCounts;
 
 /// A triangle's way along an edge: the edge's ends in one number, the lower vertex first; and twice the triangle, plus one
 /// where it starts at the lower.
@@ -39,7 +39,7 @@ pub struct Piece {
 
 /// Triangles by patches: those that meet two at an edge.
 pub struct Patches {
-    pub edges: Edges,
+    pub edges: EdgeCounts,
     /// Of each triangle, its patch; its piece, once they are joined.
     pub numbers: Vec<u32>,
     /// Of each triangle, whether it is turned round, so that its patch faces as most of it does.
@@ -96,7 +96,7 @@ impl Patches {
         let repeats = repeats(triangles);
         let runs = runs(triangles, &repeats);
         let by_edge = || runs.chunk_by(|a, b| a.0 == b.0);
-        let mut edges = Edges::default();
+        let mut edges = EdgeCounts::default();
         let mut sets = Sets::new(triangles.len());
         let mut one_sided = vec![false; triangles.len()];
         for met in by_edge() {

@@ -1,18 +1,21 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
+use crate::scene::Aabb;
+
+const CUBE: Aabb = Aabb { min: DVec3::NEG_ONE, max: DVec3::ONE };
 
 type Triangle = [DVec3; 3];
 
 fn pieces(triangles: &[Triangle]) -> Pieces {
-    let mut welder = Welder::new(1.0);
+    let mut welder = Welder::new(&CUBE);
     let corners: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|p| welder.vertex(p))).collect();
     Pieces::new(&welder.vertices, &corners)
 }
 
 /// Whether a point is inside, by every one of some rays from it; lids count, too.
 fn holds(triangles: &[Triangle], p: DVec3) -> bool {
-    let mut welder = Welder::new(1.0);
+    let mut welder = Welder::new(&CUBE);
     let corners: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|p| welder.vertex(p))).collect();
     let pieces = Pieces::new(&welder.vertices, &corners);
     let roles: Vec<Role> = pieces.roles.iter().copied().chain(pieces.lids.iter().map(|lid| lid.1)).collect();

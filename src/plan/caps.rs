@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::{Instance, Item, ItemCap, Lens, LensSet, Plan, Region};
 use crate::appearance as wgsl;
-use crate::pieces::Edges;
+use crate::pieces::EdgeCounts;
 use crate::scene::{Closure, Scene};
 use crate::spec::{At, By, Cap, Filter, Spec};
 
@@ -56,7 +56,10 @@ pub(super) fn check(spec: &Spec, scene: &Scene, lenses: &[Lens], items: &mut [It
         let model = &scene.models[item.model];
         let closure = model.closure(item.mesh, 1.0);
         if let Some(fault) = Fault::of(&closure) {
-            for cap in &item.caps {
+            // What is moved may be cut anywhere.
+            let is_moved = !item.moved_by(lenses).is_empty();
+            let misses = |lens: &Lens| !is_moved && lens.volume.holds_box(&item.bounds) == Some(false);
+            for cap in item.caps.iter().filter(|cap| !lenses.get(cap.maker).is_some_and(misses)) {
                 let name = || with_edges(&model.node_label(item.node), &closure.edges);
                 told.entry((cap.maker, fault)).or_default().entry((item.model, item.node)).or_insert_with(name);
             }
@@ -90,6 +93,7 @@ enum Fault {
     Open,
     OpenInPart,
     Mended,
+    Unsorted,
     Turned,
 }
 
@@ -99,6 +103,7 @@ impl Fault {
             (closure.closed == 0, Self::Open),
             (closure.open > 0, Self::OpenInPart),
             (closure.mended > 0, Self::Mended),
+            (closure.unsorted > 0, Self::Unsorted),
             (closure.edges.turned > 0, Self::Turned),
         ];
         faults.into_iter().find_map(|(is_so, fault)| is_so.then_some(fault))
@@ -109,6 +114,7 @@ impl Fault {
             Self::Open => "leaves open what is not closed",
             Self::OpenInPart => "closes some pieces and leaves open those that are not closed",
             Self::Mended => "takes for whole what has small holes",
+            Self::Unsorted => "leaves it open which of very many pieces in each other are holes",
             Self::Turned => "takes for one side what has triangles turned against each other",
         }
     }
@@ -119,7 +125,7 @@ fn is_same_node(a: &Item, b: &Item) -> bool {
 }
 
 /// A node with what may be wrong with its mesh's edges.
-fn with_edges(name: &str, edges: &Edges) -> String {
+fn with_edges(name: &str, edges: &EdgeCounts) -> String {
     let more = [(edges.turned, "turned"), (edges.touching, "self-touching")];
     let more: String = more.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!(", {n} {what}")).collect();
     format!("{name} ({} of {} edges are open{more})", edges.open, edges.all)
@@ -131,7 +137,7 @@ fn cap_of(spec: &Spec, lenses: &[Lens], rank: usize) -> Option<(String, String)>
         Some(lens) => (&spec.lenses[lens.index].filters, format!("lens `{}`", lens.name)),
         None => {
             let rule = &spec.overlaps[rank - lenses.len()];
-            (&rule.filters, format!("the rule in line {}", spec.source.line(rule.when.span.start)))
+            (&rule.filters, format!("the {}", super::rules::name(spec, rule)))
         }
     };
     let has_cap = |filter: &&At<Filter>| matches!(filter.value, Filter::Erase { cap: Some(_), .. });

@@ -6,8 +6,8 @@ use crate::spec::{Filter, Spec};
 /// What decided that one lens is below another.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reason {
-    /// A chain of declared edges: `(key, line, below, above)` each, by names.
-    Declared(Vec<(&'static str, usize, String, String)>),
+    /// A chain of declared edges: `(key, place, below, above)` each, by names; the place as in "line 7".
+    Declared(Vec<(&'static str, String, String, String)>),
     /// The lower has the lower priority.
     Priority(i64, i64),
     /// Both are flat and the lower is farther from the eye.
@@ -24,7 +24,7 @@ impl std::fmt::Display for Reason {
             Reason::Declared(chain) => {
                 let edges: Vec<String> = chain
                     .iter()
-                    .map(|(key, line, below, above)| format!("`{key}` in line {line} puts {below} below {above}"))
+                    .map(|(key, place, below, above)| format!("`{key}` in {place} puts {below} below {above}"))
                     .collect();
                 f.write_str(&edges.join(", "))
             }

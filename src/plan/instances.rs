@@ -22,7 +22,7 @@ const MOST_WAYS: usize = 256;
 const ROUNDING: f64 = 1e-6;
 /// How near another version must be seen for an item to fill gaps, in its spread; twin of `walk.wgsl`.
 const FILLING_REACH: f64 = 4.0;
-/// The most instances of a plan.
+/// The most instances of a plan that are not in place.
 const MOST_INSTANCES: usize = 1 << 20;
 
 /// An item as a picture may show it.
@@ -128,7 +128,7 @@ pub(super) fn collect(
             let above = ways.iter().filter_map(|way| way.through(rank, &movement, &reaches[rank]));
             let above: Vec<Instance> = above.collect();
             ways.extend(above);
-            if ways.len() > MOST_WAYS || instances.len() + ways.len() > MOST_INSTANCES {
+            if ways.len() > MOST_WAYS || instances.len() - items.len() + ways.len() > MOST_INSTANCES {
                 return Err(too_many(lenses, movers, ways.len() > MOST_WAYS));
             }
         }

@@ -1,18 +1,19 @@
 //! What can be drawn, and what each lens means to it.
 
-use super::{Lens, LensSet, Rule, instances};
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
+use super::{Lens, LensSet, Rule, instances};
 use crate::InputError;
 use crate::error::Faults;
 use crate::pixel::FIRST_CAP;
 use crate::scene::{Aabb, Coincident, Edges, Model, Part, Primitive, Scene, Selections, Subject};
-use crate::spec::{At, By, Cap, Filter, Pattern, PatternSet, ShowWhat, Spec, lod};
+use crate::spec::{At, By, Cap, Filter, Names, Pattern, PatternSet, ShowWhat, Spec, lod};
 
 /// Something that a picture may show: number 0 is the scene, the others are named by `show`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Content {
     /// Into [`Scene::models`].
     pub model: usize,
@@ -21,7 +22,7 @@ pub struct Content {
 }
 
 /// Some of a model, by names: what matches one of the patterns.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Selection {
     pub nodes: Vec<Pattern>,
     pub materials: Vec<Pattern>,
@@ -280,11 +281,7 @@ struct Relation<'a> {
 
 impl<'a> Relation<'a> {
     fn new(rank: usize, filters: &'a [Filter], contents: &[Content], scene: &Scene) -> Self {
-        let show = filters.iter().enumerate().rev().find_map(|(place, filter)| match filter {
-            Filter::Show(what) => Some((place, what)),
-            _ => None,
-        });
-        let show = show.map(|(place, what)| {
+        let show = last_show(filters.iter()).map(|(place, what)| {
             let shown = content(what, scene);
             (place, contents.iter().position(|content| *content == shown))
         });
@@ -348,48 +345,63 @@ fn model_of(alternate: &At<String>, scene: &Scene) -> usize {
     1 + scene.alternates.iter().position(|known| *known == alternate.value).unwrap_or_default()
 }
 
+/// The place of the last `show` of a list of filters, the one that acts, and what it shows.
+fn last_show<'f>(
+    filters: impl DoubleEndedIterator<Item = &'f Filter> + ExactSizeIterator,
+) -> Option<(usize, &'f ShowWhat)> {
+    filters.enumerate().rev().find_map(|(place, filter)| match filter {
+        Filter::Show(what) => Some((place, what)),
+        _ => None,
+    })
+}
+
 /// The scene, then what the enabled lenses show: alternates in their order, then node lists as they come.
 fn contents(spec: &Spec, scene: &Scene) -> Result<Vec<Content>, InputError> {
-    let mut contents = vec![Content { model: 0, only: None }];
-    let mut shown: Vec<Content> = Vec::new();
+    let of_lenses = || spec.lenses.iter().map(|lens| (lens.enabled, &lens.filters));
+    let of_rules = || spec.overlaps.iter().map(|rule| (true, &rule.filters));
     let mut faults = Faults::default();
-    let of_lenses = spec.lenses.iter().flat_map(|lens| lens.filters.iter().map(|filter| (lens.enabled, filter)));
-    let of_rules = spec.overlaps.iter().flat_map(|rule| rule.filters.iter().map(|filter| (true, filter)));
-    for (enabled, filter) in of_lenses.chain(of_rules) {
-        let Filter::Show(what) = &filter.value else { continue };
-        check_shown(spec, scene, what, &mut faults);
-        if enabled {
-            shown.push(content(what, scene));
+    let mut names = BTreeMap::new();
+    for filter in of_lenses().chain(of_rules()).flat_map(|(_, filters)| filters) {
+        if let Filter::Show(what) = &filter.value {
+            check_shown(spec, scene, what, &mut names, &mut faults);
         }
     }
     faults.finish()?;
+    let enabled = of_lenses().chain(of_rules()).filter(|(enabled, _)| *enabled);
+    let shown = enabled.filter_map(|(_, filters)| last_show(filters.iter().map(|filter| &filter.value)));
+    let mut shown: Vec<Content> = shown.map(|(_, what)| content(what, scene)).collect();
     shown.sort_by_key(|c| if c.model == 0 { usize::MAX } else { c.model });
-    for content in shown {
-        if !contents.contains(&content) {
-            contents.push(content);
-        }
-    }
+    let mut contents = vec![Content { model: 0, only: None }];
+    let mut known = HashSet::new();
+    contents.extend(shown.into_iter().filter(|content| known.insert(content.clone())));
     Ok(contents)
 }
 
-/// What `show` names must be there.
-fn check_shown(spec: &Spec, scene: &Scene, what: &ShowWhat, faults: &mut Faults) {
+/// What `show` names must be there. `known`: the names of the nodes and the materials of each model that was asked for.
+fn check_shown<'s>(
+    spec: &Spec,
+    scene: &'s Scene,
+    what: &ShowWhat,
+    known: &mut BTreeMap<usize, [Names<'s>; 2]>,
+    faults: &mut Faults,
+) {
     let (model, nodes, materials) = match what {
-        ShowWhat::Alternate { name, only } => {
-            (&scene.models[model_of(name, scene)], only.nodes.as_slice(), only.materials.as_slice())
-        }
-        ShowWhat::Nodes(nodes) => (&scene.models[0], nodes.as_slice(), &[][..]),
+        ShowWhat::Alternate { name, only } => (model_of(name, scene), only.nodes.as_slice(), only.materials.as_slice()),
+        ShowWhat::Nodes(nodes) => (0, nodes.as_slice(), &[][..]),
     };
-    let mut refuse = |what: &str, pattern: &At<Pattern>, help: String| {
+    let (number, model) = (model, &scene.models[model]);
+    let [of_nodes, of_materials] = known.entry(number).or_insert_with(|| [model.node_names(), model.material_names()]);
+    let mut refuse = |what: &str, pattern: &At<Pattern>, help: fn(&Model, &str) -> String| {
         let message = format!("`show` finds no {what} of `{}` that matches `{}`", model.name, pattern.value);
-        faults.note(InputError::at(&spec.source, pattern.span.clone(), message).help(help));
+        let error = InputError::at(&spec.source, pattern.span.clone(), message);
+        let help = faults.are_few().then(|| help(model, &pattern.value.0));
+        faults.note(InputError { help, ..error });
     };
-    let (of_nodes, of_materials) = (model.node_names(), model.material_names());
     for pattern in nodes.iter().filter(|p| !of_nodes.any(&p.value)) {
-        refuse("node", pattern, model.nearest_node_name(&pattern.value.0));
+        refuse("node", pattern, Model::node_help);
     }
     for pattern in materials.iter().filter(|p| !of_materials.any(&p.value)) {
-        refuse("material", pattern, model.nearest_material_name(&pattern.value.0));
+        refuse("material", pattern, Model::material_help);
     }
 }
 
@@ -398,4 +410,27 @@ fn drawn(spec: &Spec, model: &Model, content: usize) -> Vec<bool> {
     let hide = if content == 0 { spec.scene.hide.as_slice() } else { &[] };
     let hidden = model.nodes_matching(hide.iter().map(|pattern| &pattern.value));
     model.nodes.iter().zip(hidden).map(|(node, hidden)| node.drawn && !hidden).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_last_show_of_a_list_makes_a_content() {
+        let lens = |name: &str, filters: &str| {
+            format!(
+                "[[lens]]\nname = '{name}'\nshape.sphere = {{ center = [0, 0, 0], radius = 1 }}\n\
+                 filters = [{filters}]\n"
+            )
+        };
+        let text = "[scene]\nfile = 'models/cubes.glb'\n".to_owned()
+            + &lens("a", "{ show = { nodes = ['layer-0'] } }, { show = { nodes = ['layer-1'] } }")
+            + &lens("b", "{ show = { nodes = ['layer-1'] } }");
+        let spec = Spec::parse(&text, "a test", "lens-specs".as_ref()).expect("a spec");
+        let scene = Scene::open(&spec).expect("a model of the project");
+        let contents = contents(&spec, &scene).expect("all is there");
+        let shown: Vec<&str> = contents.iter().flat_map(|c| &c.only).map(|only| only.nodes[0].0.as_str()).collect();
+        assert_eq!((contents.len(), shown), (2, vec!["layer-1"]));
+    }
 }

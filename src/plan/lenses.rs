@@ -89,7 +89,8 @@ pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Opt
     }
     let mut faults = Faults::default();
     let volumes = spec.lenses.iter().map(|lens| {
-        let volume = faults.take(volume(spec, lens, scene, view));
+        let volume = volume(spec, lens, scene, view, faults.are_few());
+        let volume = faults.take(volume);
         volume.filter(|_| lens.enabled)
     });
     let volumes = volumes.collect();
@@ -97,8 +98,9 @@ pub(super) fn volumes(spec: &Spec, scene: &Scene, view: &View) -> Result<Vec<Opt
     Ok(volumes)
 }
 
-fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Placed, InputError> {
-    let attach = attach_space(spec, lens, scene, view)?;
+/// `suggests`: names that may have been meant are looked for.
+fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View, suggests: bool) -> Result<Placed, InputError> {
+    let attach = attach_space(spec, lens, scene, view, suggests)?;
     let placement = Placement { attach, translation: lens.translation, rotation: lens.rotation, scale: lens.scale };
     let volume = build_volume(&lens.shape, &placement, view, &scene.lens_meshes).map_err(|reason| {
         let message = format!("the shape of lens `{}` has no volume: {}", lens.name.value, reason.value);
@@ -111,14 +113,21 @@ fn volume(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<Pl
     Ok(Placed { volume, world_from_shape: placement.world_from_shape() })
 }
 
-fn attach_space(spec: &Spec, lens: &LensSpec, scene: &Scene, view: &View) -> Result<DAffine3, InputError> {
+fn attach_space(
+    spec: &Spec,
+    lens: &LensSpec,
+    scene: &Scene,
+    view: &View,
+    suggests: bool,
+) -> Result<DAffine3, InputError> {
     let model = &scene.models[0];
     match &lens.attach.value {
         Attach::Scene => Ok(DAffine3::IDENTITY),
         Attach::Camera => Ok(view.world_from_camera()),
         Attach::Node(name) => {
-            let node = model.node_named(name).map_err(|(message, help)| {
-                InputError::at(&spec.source, lens.attach.span.clone(), message).help(help)
+            let node = model.node_named(name).map_err(|message| {
+                let error = InputError::at(&spec.source, lens.attach.span.clone(), message);
+                if suggests { error.help(model.node_help(name)) } else { error }
             })?;
             Ok(model.nodes[node].world_from_local)
         }

@@ -130,6 +130,8 @@ impl Plan {
         warnings.extend(warnings::of_lods(spec, &lenses, &rules, &items));
         let instances = instances::collect(&items, &lenses, scene, &view)?;
         warnings.extend(warnings::of_reach(spec, &lenses, &items, &instances));
+        let coincident = items::coincident(&items, scene);
+        warnings.extend(warnings::of_coincident(&coincident));
         Ok(Self {
             scene: scene.id,
             samples: spec.image.samples,
@@ -145,7 +147,7 @@ impl Plan {
             view,
             bodies: caps::bodies(scene, &items, &instances),
             screen: screen::steps(&lenses, &rules, &ops),
-            coincident: items::coincident(&items, scene),
+            coincident,
             lenses,
             rules,
             ops,

@@ -1,7 +1,7 @@
 //! The priority graph: declared edges, cycles, and the one total order (SEMANTICS section 3).
 
 use std::cmp::{Ordering, Reverse};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 
 use petgraph::graph::{DiGraph, EdgeIndex, NodeIndex};
@@ -44,6 +44,8 @@ pub struct Declared {
 #[derive(Debug, Clone)]
 pub struct PriorityGraph {
     pub graph: DiGraph<(), Declared>,
+    /// Of each enabled lens, the enabled ones that edges put above it, each once.
+    above: Vec<Vec<usize>>,
 }
 
 /// What orders the ready lenses; by position in the file.
@@ -82,7 +84,13 @@ impl PriorityGraph {
                 }
             }
         }
-        let graph = Self { graph };
+        let above = |lens: usize| {
+            let targets = graph.neighbors(NodeIndex::new(lens)).map(NodeIndex::index);
+            let enabled: BTreeSet<usize> = targets.filter(|lens| spec.lenses[*lens].enabled).collect();
+            if spec.lenses[lens].enabled { enabled.into_iter().collect() } else { Vec::new() }
+        };
+        let above = (0..spec.lenses.len()).map(above).collect();
+        let graph = Self { graph, above };
         match graph.cycles(&|lens| spec.lenses[lens].enabled).into_iter().next() {
             Some(cycle) => Err(cycle_error(spec, &graph, &cycle)),
             None => Ok(graph),
@@ -172,20 +180,16 @@ impl PriorityGraph {
 
     /// The order if the lenses stood in the file as `place` sorts them.
     fn order_by<K: Ord + Copy>(&self, ranks: &[Rank], place: impl Fn(usize) -> K) -> Vec<usize> {
-        let above = |lens: usize| {
-            let targets = self.graph.neighbors(NodeIndex::new(lens)).map(NodeIndex::index);
-            targets.filter(|lens| ranks[*lens].enabled)
-        };
         let enabled = || (0..ranks.len()).filter(|lens| ranks[*lens].enabled);
-        // How many edges each lens still waits for; parallel edges count each.
+        // How many lenses each one still waits for.
         let mut waits = vec![0usize; ranks.len()];
-        enabled().flat_map(above).for_each(|lens| waits[lens] += 1);
+        self.above.iter().flatten().for_each(|lens| waits[*lens] += 1);
         let mut ready = Ready::default();
         enabled().filter(|lens| waits[*lens] == 0).for_each(|lens| ready.insert(lens, &ranks[lens], place(lens)));
         let mut order = Vec::with_capacity(ranks.len());
         while let Some(next) = ready.take(ranks) {
             order.push(next);
-            for lens in above(next) {
+            for &lens in &self.above[next] {
                 waits[lens] -= 1;
                 if waits[lens] == 0 {
                     ready.insert(lens, &ranks[lens], place(lens));

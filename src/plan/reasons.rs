@@ -87,7 +87,7 @@ impl<'a> Reasons<'a> {
         let name = |index: usize| self.spec.lenses[index].name.value.clone();
         let chain = self.plan.graph.chain(index(below), index(above), &self.plan.ranks)?;
         let edges = chain.into_iter().map(|(a, b, declared)| {
-            (declared.key.name(), self.spec.source.line(declared.span.start), name(a), name(b))
+            (declared.key.name(), self.spec.source.spot(declared.span.start), name(a), name(b))
         });
         Some(Reason::Declared(edges.collect()))
     }

@@ -5,13 +5,15 @@ use std::ops::Range;
 use super::op::Ops;
 use super::{Item, Lens, LensSet, Op, Plan, filter_name};
 use crate::InputError;
-use crate::spec::{Condition, Filter, Spec, lod};
+use crate::spec::{Condition, Filter, OverlapSpec, Spec, lod};
 
 /// A rule. In stacks it stands at the rank [`Plan::rule_rank`], behind all lenses.
 #[derive(Debug, Clone)]
 pub struct Rule {
-    /// Of its condition in the spec, from 1: people are told of rules by it.
+    /// Of its condition in the spec, from 1.
     pub line: usize,
+    /// How people are told of it: "rule in line 7".
+    pub name: String,
     pub when: Test,
     pub filters: Vec<Filter>,
     /// Its appearance filters in [`Plan::ops`].
@@ -55,13 +57,19 @@ impl Test {
     }
 }
 
+/// How people are told of a rule, by the place of its condition.
+pub(super) fn name(spec: &Spec, rule: &OverlapSpec) -> String {
+    format!("rule in {}", spec.source.spot(rule.when.span.start))
+}
+
 /// The rules of a spec in their order, their filters behind those of the lenses.
 pub(super) fn collect(spec: &Spec, lenses: &[Lens], ops: &mut Ops) -> Result<Vec<Rule>, InputError> {
-    let rule = |rule: &crate::spec::OverlapSpec| {
+    let rule = |rule: &OverlapSpec| {
         let own = ops.append(&rule.filters)?;
         let filters: Vec<Filter> = rule.filters.iter().map(|f| f.value.clone()).collect();
         Ok(Rule {
             line: spec.source.line(rule.when.span.start),
+            name: name(spec, rule),
             when: Test::new(&rule.when.value, lenses),
             translucent: ops.list[own.clone()].iter().any(Op::may_be_translucent),
             ops: own,
@@ -96,9 +104,11 @@ impl Plan {
         self.filters_of(rank).iter().map(filter_name)
     }
 
-    /// The lens that a filter's record belongs to; rules have no names.
+    /// The name of the lens or rule that a filter's record belongs to.
     pub fn actor_of_op(&self, op: usize) -> &str {
-        self.lenses.iter().find(|lens| lens.ops.contains(&op)).map_or("a rule", |lens| &lens.name)
+        let lenses = self.lenses.iter().map(|lens| (&lens.ops, &lens.name));
+        let mut all = lenses.chain(self.rules.iter().map(|rule| (&rule.ops, &rule.name)));
+        all.find(|(ops, _)| ops.contains(&op)).map_or("", |(_, name)| name)
     }
 
     /// Into [`Plan::ops`]: the appearance filters of a lens or rule of a stack.

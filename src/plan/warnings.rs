@@ -1,7 +1,8 @@
 //! Patterns that match nothing, and what the models left out.
 
 use super::{Instance, Item, Lens, Rule};
-use crate::scene::{Model, Scene, nearest};
+use crate::scene::{Coincident, Model, Scene};
+use crate::spec::suggest::{self, MOST_SUGGESTED};
 use crate::spec::{At, By, Filter, Matches, Names, Pattern, Spec};
 
 pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
@@ -18,42 +19,56 @@ pub(super) fn collect(spec: &Spec, scene: &Scene) -> Vec<String> {
             spec.source.place(time.span.start)
         ));
     }
-    let (nodes_of_scene, nodes) = (scene.models[0].node_names(), node_names(&scene.models));
-    let materials = Names::new(scene.models.iter().flat_map(|m| &m.materials).map(|m| m.name.as_str()));
-    let mut told = 0;
-    let mut check = |place: String, patterns: &[At<Pattern>], names: &Names| {
-        for pattern in patterns.iter().filter(|p| !names.any(&p.value)) {
-            let here = spec.source.place(pattern.span.start);
-            told += 1;
-            let near = if told > MOST_NEAREST { None } else { nearest(&pattern.value.0, names.iter()) };
-            let help = near.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
-            warnings.push(format!("{here}: {place} matches nothing: `{}`{help}", pattern.value));
-        }
-    };
-    check("`hide`".into(), &spec.scene.hide, &nodes_of_scene);
-    let (node, material) = (&nodes, &materials);
-    for lens in &spec.lenses {
-        let name = &lens.name.value;
-        for (key, Matches { nodes, materials }) in [("only", &lens.only), ("except", &lens.except)] {
-            check(format!("`{key}` of lens `{name}`"), nodes, node);
-            check(format!("`{key}` of lens `{name}`"), materials, material);
-        }
-        for filter in &lens.filters {
-            match &filter.value {
-                Filter::Erase { nodes, materials, .. } => {
-                    check(format!("`erase` of lens `{name}`"), nodes, node);
-                    check(format!("`erase` of lens `{name}`"), materials, material);
-                }
-                Filter::Displace { nodes, .. } => check(format!("`displace` of lens `{name}`"), nodes, node),
-                _ => {}
-            }
-        }
-    }
+    warnings.extend(unmatched(spec, scene));
     warnings
 }
 
-/// For so many patterns that match nothing a name is looked for that may have been meant.
-const MOST_NEAREST: usize = 20;
+/// So many patterns that match nothing are told one by one.
+const MOST_TOLD: usize = MOST_SUGGESTED;
+
+/// A line for each pattern that matches nothing, as far as one reads them.
+fn unmatched(spec: &Spec, scene: &Scene) -> Vec<String> {
+    let (of_scene, of_nodes) = (scene.models[0].node_names(), node_names(&scene.models));
+    let of_materials = Names::new(scene.models.iter().flat_map(|m| &m.materials).map(|m| m.name.as_str()));
+    let (mut told, mut more) = (Vec::new(), 0);
+    let mut check = |key: &str, owner: &str, patterns: &[At<Pattern>], names: &Names| {
+        for pattern in patterns.iter().filter(|p| !names.any(&p.value)) {
+            if told.len() == MOST_TOLD {
+                more += 1;
+                continue;
+            }
+            let here = spec.source.place(pattern.span.start);
+            let near = suggest::nearest(&pattern.value.0, names.iter());
+            let help = near.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+            told.push(format!("{here}: `{key}`{owner} matches nothing: `{}`{help}", pattern.value));
+        }
+    };
+    check("hide", "", &spec.scene.hide, &of_scene);
+    let of_lenses = spec.lenses.iter().map(|lens| {
+        let scopes = [("only", &lens.only), ("except", &lens.except)];
+        let scopes = scopes.map(|(key, Matches { nodes, materials })| (key, nodes.as_slice(), materials.as_slice()));
+        (format!(" of lens `{}`", lens.name.value), scopes.to_vec(), &lens.filters)
+    });
+    let of_rules = spec.overlaps.iter().map(|rule| {
+        let name = super::rules::name(spec, rule);
+        (format!(" of the {name}"), Vec::new(), &rule.filters)
+    });
+    for (owner, scopes, filters) in of_lenses.chain(of_rules) {
+        let of_filters = filters.iter().filter_map(|filter| match &filter.value {
+            Filter::Erase { nodes, materials, .. } => Some(("erase", nodes.as_slice(), materials.as_slice())),
+            Filter::Displace { nodes, .. } => Some(("displace", nodes.as_slice(), &[][..])),
+            _ => None,
+        });
+        for (key, nodes, materials) in scopes.into_iter().chain(of_filters) {
+            check(key, &owner, nodes, &of_nodes);
+            check(key, &owner, materials, &of_materials);
+        }
+    }
+    if more > 0 {
+        told.push(format!("and {more} more patterns match nothing"));
+    }
+    told
+}
 
 /// Lenses that mean nothing to what the scene draws.
 pub(super) fn of_reach(spec: &Spec, lenses: &[Lens], items: &[Item], instances: &[Instance]) -> Vec<String> {
@@ -98,8 +113,7 @@ pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Ite
     let of_lenses =
         lenses.iter().map(|lens| (lens.lod, format!("lens `{}`", lens.name), &spec.lenses[lens.index].filters));
     let of_rules = rules.iter().zip(&spec.overlaps);
-    let of_rules =
-        of_rules.map(|(rule, overlap)| (rule.lod, format!("the rule in line {}", rule.line), &overlap.filters));
+    let of_rules = of_rules.map(|(rule, overlap)| (rule.lod, format!("the {}", rule.name), &overlap.filters));
     let lods = of_lenses.chain(of_rules).enumerate().filter_map(|(rank, (ratio, name, filters))| {
         let ratio = ratio.filter(|ratio| *ratio < 1.0)?;
         let all = |ratio: f32| -> f64 {
@@ -119,6 +133,14 @@ pub(super) fn of_lods(spec: &Spec, lenses: &[Lens], rules: &[Rule], items: &[Ite
         ))
     });
     lods.collect()
+}
+
+/// Where there is more to find than is looked for.
+pub(super) fn of_coincident(found: &Coincident) -> Option<String> {
+    found.is_partial.then(|| {
+        "more triangles lie over each other in one plane than are told apart: which of the rest are seen is left to rounding"
+            .into()
+    })
 }
 
 fn moves(scene: &Scene) -> bool {

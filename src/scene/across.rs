@@ -3,10 +3,13 @@
 
 use std::collections::HashMap;
 
-use glam::{I64Vec3, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{Mesh, Model, Primitive};
+use super::vertex_values::places;
+use super::{Aabb, Budget, Mesh, Model, Primitive};
+use crate::InputError;
+use crate::pieces::Welder;
 
 /// What lies across an edge of a triangle: another triangle of its mesh, or nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,12 +83,13 @@ impl Edges {
     }
 }
 
-/// Vertices nearer than this share of a mesh's longest side are one, where nothing else lies across an edge.
-const WELD: f64 = 1e-6;
 /// Neighbours lie in one plane up to this angle, in radians: what files round, and no more than a fine tessellation turns.
 const FLAT: f32 = 1e-3;
 /// Or up to this share of their largest coordinate.
 const ROUNDING: f32 = 2e-6;
+/// Bytes that a triangle takes while its neighbours are looked for, and a vertex.
+const PASSING: u64 = 160;
+const VERTEX: u64 = 64;
 /// Of so many triangles at one edge each is held against all others.
 const MOST_AT_AN_EDGE: usize = 16;
 
@@ -105,7 +109,7 @@ impl Mesh {
 
 impl Model {
     /// Finds what lies across the edges of all triangles that are drawn, in every version.
-    pub(super) fn add_across(&mut self) {
+    pub(super) fn add_across(&mut self, budget: &mut Budget) -> Result<(), InputError> {
         let mut drawn: Vec<usize> = self.nodes.iter().filter(|node| node.drawn).filter_map(|node| node.mesh).collect();
         drawn.sort_unstable();
         drawn.dedup();
@@ -114,6 +118,14 @@ impl Model {
             own.across.len() == own.triangles.len() && simplified()
         };
         drawn.retain(|mesh| !self.meshes[*mesh].primitives.iter().all(is_known));
+        let primitives = || drawn.iter().flat_map(|mesh| &self.meshes[*mesh].primitives);
+        let of_versions = |own: &Primitive| own.versions().map(|(_, triangles)| triangles.len() as u64).sum::<u64>();
+        let triangles: u64 = primitives().map(of_versions).sum();
+        let vertices: u64 = primitives().map(|own| own.positions.len() as u64).sum();
+        let passing = PASSING * triangles + VERTEX * vertices;
+        let kept = size_of::<Edges>() as u64 * triangles;
+        let what = || format!("{}: what lies across the edges of {triangles} triangles, for wires", self.name);
+        budget.take(kept + passing, what)?;
         let all: Vec<Vec<Version>> = drawn.par_iter().map(|mesh| versions(&self.meshes[*mesh])).collect();
         for (mesh, versions) in drawn.into_iter().zip(all) {
             for Version { primitive, number, across } in versions {
@@ -124,6 +136,8 @@ impl Model {
                 }
             }
         }
+        budget.give_back(passing);
+        Ok(())
     }
 }
 
@@ -160,8 +174,7 @@ struct Places {
     positions: Vec<Vec3>,
     /// Of each vertex: the same number for all at one place.
     of: Vec<u32>,
-    /// The mesh's longest side.
-    size: f64,
+    bounds: Aabb,
 }
 
 impl Places {
@@ -172,17 +185,8 @@ impl Places {
             *next += own.positions.len() as u32;
             Some(first)
         });
-        let mut known = HashMap::new();
-        let number = |p: &Vec3| {
-            let next = known.len() as u32;
-            // -0 is 0.
-            *known.entry((*p + 0.0).to_array().map(f32::to_bits)).or_insert(next)
-        };
-        let of = positions.iter().map(number).collect();
-        let low = positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
-        let high = positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
-        let size = f64::from((high - low).max_element());
-        Self { first: starts.collect(), positions, of, size }
+        let bounds = Aabb::from_points(positions.iter().map(|p| p.as_dvec3()));
+        Self { first: starts.collect(), of: places(&positions), positions, bounds }
     }
 }
 
@@ -356,20 +360,14 @@ fn weld(sides: &Sides, lone: &[Run]) -> HashMap<u32, u32> {
         .collect();
     ends.sort_unstable();
     ends.dedup_by_key(|(place, _)| *place);
-    let reach = WELD * places.size;
-    // Cells much larger than the reach: most points are near to one of them alone.
-    let cell_of = |p: glam::DVec3| (p / (16.0 * reach).max(f64::MIN_POSITIVE)).floor().as_i64vec3();
-    let mut cells: HashMap<I64Vec3, Vec<(u32, glam::DVec3)>> = HashMap::new();
+    let mut welder = Welder::new(&places.bounds);
+    // Of each vertex of the welder, the first place that is there.
+    let mut firsts: Vec<u32> = Vec::new();
     let mut welded = HashMap::new();
     for (place, vertex) in ends {
-        let p = sides.point(vertex).as_dvec3();
-        let (low, high) = (cell_of(p - reach), cell_of(p + reach));
-        let near = (low.x..=high.x)
-            .flat_map(|x| (low.y..=high.y).flat_map(move |y| (low.z..=high.z).map(move |z| I64Vec3::new(x, y, z))));
-        let mut known = near.filter_map(|cell| cells.get(&cell)).flatten();
-        match known.find(|(_, other)| other.distance(p) <= reach) {
-            Some((first, _)) => _ = welded.insert(place, *first),
-            None => cells.entry(cell_of(p)).or_default().push((place, p)),
+        match firsts.get(welder.vertex(sides.point(vertex).as_dvec3()) as usize) {
+            Some(first) => _ = welded.insert(place, *first),
+            None => firsts.push(place),
         }
     }
     welded

@@ -4,20 +4,23 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
+use petgraph::unionfind::UnionFind;
 
 use super::{Aabb, Mesh, Model};
-use crate::pieces::{Edges, Pieces, Role, Welder};
+use crate::pieces::{EdgeCounts, Pieces, Role, Welder};
 
 /// What a mesh encloses, once corners at the same place are one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closure {
-    pub edges: Edges,
+    pub edges: EdgeCounts,
     /// Its connected pieces that enclose something.
     pub closed: usize,
     /// Those of them that do so because their holes are closed over.
     pub mended: usize,
     /// Its pieces that enclose nothing.
     pub open: usize,
+    /// See [`Pieces::unsorted`].
+    pub unsorted: usize,
     pub primitives: Vec<Enclosing>,
 }
 
@@ -58,10 +61,7 @@ impl Closure {
         let used = mesh.primitives.iter().zip(&lists).flat_map(|(primitive, list)| {
             list.iter().flatten().map(|corner| primitive.positions[*corner as usize].as_dvec3())
         });
-        let bounds = Aabb::from_points(used);
-        let half = (bounds.size().max_element() * 0.5).max(f64::MIN_POSITIVE);
-        let largest = bounds.min.abs().max(bounds.max.abs()).max_element() / half;
-        let mut welder = Welder::new(largest);
+        let mut welder = Welder::new(&Aabb::from_points(used));
         // As the file has them.
         let mut places: Vec<Vec3> = Vec::new();
         let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(lists.iter().map(|list| list.len()).sum());
@@ -71,7 +71,7 @@ impl Closure {
                 let known = &mut welded[corner as usize];
                 if *known == u32::MAX {
                     let place = primitive.positions[corner as usize];
-                    *known = welder.vertex((place.as_dvec3() - bounds.center()) / half);
+                    *known = welder.vertex(place.as_dvec3());
                     places.resize(places.len().max(*known as usize + 1), place);
                 }
                 *known
@@ -80,8 +80,8 @@ impl Closure {
         }
         let pieces = Pieces::new(&welder.vertices, &triangles);
         let primitives = enclosing(&lists, &pieces, &places);
-        let Pieces { edges, closed, mended, open, .. } = pieces;
-        Self { edges, closed, mended, open, primitives }
+        let Pieces { edges, closed, mended, open, unsorted, .. } = pieces;
+        Self { edges, closed, mended, open, unsorted, primitives }
     }
 }
 
@@ -93,9 +93,9 @@ fn enclosing(lists: &[&[[u32; 3]]], pieces: &Pieces, places: &[Vec3]) -> Vec<Enc
     });
     let ranges: Vec<std::ops::Range<usize>> =
         starts.zip(lists).map(|(start, list)| start..start + list.len()).collect();
-    // Of each piece, the first primitive that has some of it; of each primitive, an earlier one in its group.
+    // Of each piece, the first primitive that has some of it.
     let mut firsts: BTreeMap<u32, usize> = BTreeMap::new();
-    let mut groups: Vec<usize> = (0..lists.len()).collect();
+    let mut groups = UnionFind::<usize>::new(lists.len());
     for (primitive, range) in ranges.iter().enumerate() {
         let mut last = None;
         for i in range.clone().filter(|i| pieces.roles[*i].is_closed()) {
@@ -105,10 +105,12 @@ fn enclosing(lists: &[&[[u32; 3]]], pieces: &Pieces, places: &[Vec3]) -> Vec<Enc
             }
             last = Some(piece);
             let first = *firsts.entry(piece).or_insert(primitive);
-            let (a, b) = (head(&groups, first), head(&groups, primitive));
-            groups[a.max(b)] = a.min(b);
+            groups.union(first, primitive);
         }
     }
+    let labels = groups.into_labeling();
+    let mut heads = vec![usize::MAX; lists.len()];
+    labels.iter().enumerate().for_each(|(primitive, label)| heads[*label] = heads[*label].min(primitive));
     let mut all: Vec<Enclosing> = ranges
         .into_iter()
         .enumerate()
@@ -116,7 +118,7 @@ fn enclosing(lists: &[&[[u32; 3]]], pieces: &Pieces, places: &[Vec3]) -> Vec<Enc
             let roles = &pieces.roles[range.clone()];
             let are_plain = roles.iter().all(|role| *role == Role::PLAIN);
             let roles = if are_plain { Vec::new() } else { roles.to_vec() };
-            Enclosing { group: head(&groups, primitive), roles, lids: Vec::new(), triangles: range.len() }
+            Enclosing { group: heads[labels[primitive]], roles, lids: Vec::new(), triangles: range.len() }
         })
         .collect();
     for (corners, role, piece) in &pieces.lids {
@@ -125,13 +127,6 @@ fn enclosing(lists: &[&[[u32; 3]]], pieces: &Pieces, places: &[Vec3]) -> Vec<Enc
         }
     }
     all
-}
-
-fn head(groups: &[usize], mut primitive: usize) -> usize {
-    while groups[primitive] != primitive {
-        primitive = groups[primitive];
-    }
-    primitive
 }
 
 /// What [`Model::closure`] remembers of each version of a mesh, by the bits of its ratio; as [`super::BoundsCache`].
@@ -189,7 +184,7 @@ mod tests {
     #[test]
     fn primitives_close_a_mesh_together() {
         let whole = closure(&tetrahedron(&[&[0, 1, 2, 3]]));
-        assert_eq!((whole.edges, whole.closed, whole.open), (Edges { all: 6, ..Edges::default() }, 1, 0));
+        assert_eq!((whole.edges, whole.closed, whole.open), (EdgeCounts { all: 6, ..EdgeCounts::default() }, 1, 0));
         assert!(whole.primitives[0].roles.is_empty(), "nothing is to be said of each triangle");
         let parts = closure(&tetrahedron(&[&[0, 3], &[1, 2]]));
         assert_eq!((parts.closed, groups(&parts)), (1, vec![0, 0]));
@@ -214,7 +209,7 @@ mod tests {
         // The other one turned by half around the x axis, which both have for an edge.
         mesh.primitives[1].positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, -p.y, -p.z));
         let both = closure(&mesh);
-        assert_eq!(both.edges, Edges { all: 11, touching: 1, ..Edges::default() });
+        assert_eq!(both.edges, EdgeCounts { all: 11, touching: 1, ..EdgeCounts::default() });
         assert_eq!((both.closed, groups(&both)), (2, vec![0, 1]));
     }
 

@@ -1,16 +1,18 @@
 //! The files that opening a spec reads, found without opening much.
 
+use std::collections::{BTreeSet, HashSet};
 use std::fs::File;
-use std::io::{Read, Seek};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::load::uri;
+use super::OpenOptions;
+use super::load::{open, uri};
 use crate::output::folder_of;
 use crate::spec::{Filter, Shape, Spec};
 
-/// Each with a few words on what it is. Files that cannot be read name no others: whoever opens them will tell.
+/// Each once, with a few words on what it is. Files that cannot be read name no others: whoever opens them will tell.
 pub fn files(spec: &Spec) -> Vec<(PathBuf, &'static str)> {
     let mut models = vec![(&spec.scene.file.value, "the model")];
     models.extend(spec.scene.alternates.iter().map(|(_, path)| (&path.value, "the model of an alternate")));
@@ -19,7 +21,9 @@ pub fn files(spec: &Spec) -> Vec<(PathBuf, &'static str)> {
         Shape::Mesh(mesh) => Some((&mesh.file.value, "the mesh of a lens")),
         _ => None,
     }));
-    let beside = models.iter().flat_map(|(path, _)| beside(path)).collect::<Vec<_>>();
+    // Many may name one file.
+    let opened: BTreeSet<&PathBuf> = models.iter().map(|(path, _)| *path).collect();
+    let beside = opened.into_iter().flat_map(|path| beside(path)).collect::<Vec<_>>();
     let filters = spec.lenses.iter().flat_map(|l| &l.filters).chain(spec.overlaps.iter().flat_map(|o| &o.filters));
     let of_filters = filters.filter_map(|filter| match &filter.value {
         Filter::Texture { file, .. } => Some((file.value.clone(), "the image of a filter")),
@@ -27,7 +31,9 @@ pub fn files(spec: &Spec) -> Vec<(PathBuf, &'static str)> {
         _ => None,
     });
     let models = models.iter().map(|(path, what)| ((*path).clone(), *what));
-    models.chain(beside.into_iter().map(|path| (path, "a file of the model"))).chain(of_filters).collect()
+    let all = models.chain(beside.into_iter().map(|path| (path, "a file of the model"))).chain(of_filters);
+    let mut known = HashSet::new();
+    all.filter(|(path, _)| known.insert(path.clone())).collect()
 }
 
 /// The part of a glTF file that names others.
@@ -61,15 +67,13 @@ fn json_text(model: &Path) -> Option<Vec<u8>> {
     // A pipe can be read only once.
     std::fs::metadata(model).ok().filter(std::fs::Metadata::is_file)?;
     let mut file = File::open(model).ok()?;
-    let mut json = Vec::new();
     let mut head = [0; 20];
-    if file.read_exact(&mut head).is_ok() && head.starts_with(b"glTF") {
-        let length = u32::from_le_bytes([head[12], head[13], head[14], head[15]]);
-        file.take(length.into()).read_to_end(&mut json).ok()?;
-    } else {
-        file.rewind().ok()?;
-        file.read_to_end(&mut json).ok()?;
+    if file.read_exact(&mut head).is_err() || !head.starts_with(b"glTF") {
+        return open::read(model, OpenOptions::MEMORY_LIMIT).ok();
     }
+    let length = u32::from_le_bytes([head[12], head[13], head[14], head[15]]);
+    let mut json = Vec::new();
+    file.take(length.into()).read_to_end(&mut json).ok()?;
     Some(json)
 }
 
@@ -98,6 +102,6 @@ mod tests {
             .map(|(path, _)| path.strip_prefix(&folder).expect("in the folder").display().to_string())
             .collect();
         found.sort();
-        assert_eq!(found, ["a b.bin", "a b.bin", "c.png", "c.png", "f.wgsl", "l.glb", "m.gltf", "none.glb", "t.png"]);
+        assert_eq!(found, ["a b.bin", "c.png", "f.wgsl", "l.glb", "m.gltf", "none.glb", "t.png"], "each once");
     }
 }

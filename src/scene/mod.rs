@@ -32,7 +32,7 @@ pub(crate) use files::files;
 use load::object;
 pub use materials::{MaterialRecord, NO_TEXTURE, TextureSlot};
 pub use model::*;
-pub(crate) use names::{Selections, Subject, nearest};
+pub(crate) use names::{Selections, Subject};
 pub use open::{Scene, SceneId};
 pub use pose::Transform;
 pub use simplified::Simplified;

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use super::Model;
 use crate::InputError;
 use crate::limits::MAX_COMPARISONS;
-use crate::spec::{At, Filter, LensSpec, Matches, Names, Pattern, PatternSet, ShowWhat, Spec};
+use crate::spec::{At, Filter, LensSpec, Matches, Names, NamesSize, Pattern, PatternSet, ShowWhat, Spec, suggest};
 
 /// What name patterns are held against.
 pub(crate) struct Subject<'a> {
@@ -48,7 +48,7 @@ pub(crate) struct Selections<'a> {
 }
 
 impl<'a> Selections<'a> {
-    /// For each node whether the list matches it; see [`Model::node_matches`].
+    /// For each node whether the list matches it; see [`Model::nodes_matching`].
     pub fn nodes(&self, model: &'a Model, list: &'a [At<Pattern>]) -> Rc<[bool]> {
         self.find(model, list, || model.nodes_matching(list.iter().map(|pattern| &pattern.value)).into())
     }
@@ -68,32 +68,24 @@ impl<'a> Selections<'a> {
 }
 
 /// Fails where a spec's patterns would have to be held against the names of its models more often than is done.
-///
-/// Names without wildcards are looked up. A pattern with wildcards is held against each name, which takes at most the product
-/// of both lengths; a sixteenth of that counts.
 pub(super) fn bound_comparisons(spec: &Spec, models: &[Model]) -> Result<(), InputError> {
-    let names = |names: &mut dyn Iterator<Item = &String>| {
-        names.fold((0u64, 0u64), |(count, bytes), name| (count + 1, bytes + name.len() as u64))
-    };
-    let nodes = names(&mut models.iter().flat_map(|model| &model.nodes).map(|node| &node.name));
-    let materials = names(&mut models.iter().flat_map(|model| &model.materials).map(|material| &material.name));
+    let nodes: NamesSize = models.iter().flat_map(|model| &model.nodes).map(|node| node.name.as_str()).collect();
+    let materials: NamesSize =
+        models.iter().flat_map(|model| &model.materials).map(|material| material.name.as_str()).collect();
     let (mut work, mut wild) = (0u64, 0);
-    for (list, (count, bytes)) in
-        lists(spec).flat_map(|[of_nodes, of_materials]| [(of_nodes, nodes), (of_materials, materials)])
-    {
-        let patterns = || list.iter().filter(|pattern| pattern.value.has_wildcard());
-        let length: u64 = patterns().map(|pattern| pattern.value.0.len() as u64).sum();
-        wild += patterns().count();
-        let own = count.saturating_mul(1 + patterns().count() as u64).saturating_add(length.saturating_mul(bytes) / 16);
-        work = work.saturating_add(if list.is_empty() { 0 } else { own });
+    let of_lists = lists(spec).flat_map(|[of_nodes, of_materials]| [(of_nodes, nodes), (of_materials, materials)]);
+    for (list, names) in of_lists.filter(|(list, _)| !list.is_empty()) {
+        let patterns = || list.iter().map(|pattern| &pattern.value);
+        wild += patterns().filter(|pattern| pattern.has_wildcard()).count();
+        // Each name is looked up in the list, too.
+        work = work.saturating_add(names.count).saturating_add(names.steps(patterns()));
         if work > MAX_COMPARISONS {
             let message = format!(
                 "{wild} patterns with wildcards over {} nodes and {} materials are too many to compare: \
                  that takes more than {MAX_COMPARISONS} steps",
-                nodes.0, materials.0
+                nodes.count, materials.count
             );
-            let place = list.first().map_or(0..0, |pattern| pattern.span.clone());
-            return Err(InputError::at(&spec.source, place, message)
+            return Err(InputError::at(&spec.source, list[0].span.clone(), message)
                 .help("names without `*` and `?` cost nothing: any number of them can be listed"));
         }
     }
@@ -121,27 +113,31 @@ fn patterns_of(filter: &Filter) -> [&[At<Pattern>]; 2] {
 }
 
 impl Model {
-    /// The one node of a name, or what is wrong with the name and what to do about it.
-    pub fn node_named(&self, name: &str) -> Result<usize, (String, String)> {
-        let found: Vec<usize> = (0..self.nodes.len()).filter(|i| self.nodes[*i].name == name).collect();
+    /// The one node of a name, or what is wrong with the name; [`Model::node_help`] says what to do about it.
+    pub fn node_named(&self, name: &str) -> Result<usize, String> {
+        let found: Vec<usize> = self.nodes_named(name).collect();
         match found[..] {
             [node] => Ok(node),
-            [] => Err((format!("`{}` has no node named `{name}`", self.name), self.nearest_node_name(name))),
-            _ => Err((
-                format!("{} nodes of `{}` are named `{name}`", found.len(), self.name),
-                "one node is meant here; give that node a name of its own".into(),
-            )),
+            [] => Err(format!("`{}` has no node named `{name}`", self.name)),
+            _ => Err(format!("{} nodes of `{}` are named `{name}`", found.len(), self.name)),
         }
     }
 
-    /// What to write instead of a node name that is not there.
-    pub fn nearest_node_name(&self, name: &str) -> String {
-        help(nearest(name, self.nodes.iter().map(|n| n.name.as_str())), "nodes")
+    /// What to write instead of a name that is not one node's.
+    pub fn node_help(&self, name: &str) -> String {
+        match self.nodes_named(name).next() {
+            Some(_) => "one node is meant here; give that node a name of its own".into(),
+            None => help(name, self.nodes.iter().map(|node| node.name.as_str()), "nodes"),
+        }
     }
 
     /// What to write instead of a material name that is not there.
-    pub fn nearest_material_name(&self, name: &str) -> String {
-        help(nearest(name, self.materials.iter().map(|m| m.name.as_str())), "materials")
+    pub fn material_help(&self, name: &str) -> String {
+        help(name, self.materials.iter().map(|material| material.name.as_str()), "materials")
+    }
+
+    fn nodes_named(&self, name: &str) -> impl Iterator<Item = usize> {
+        (0..self.nodes.len()).filter(move |node| self.nodes[*node].name == name)
     }
 
     /// The nodes' names, to hold patterns against.
@@ -164,12 +160,7 @@ impl Model {
         or_number(&self.materials[material].name, "material", material)
     }
 
-    /// Whether the pattern matches the node's own name or any ancestor's.
-    pub fn node_matches(&self, node: usize, pattern: &Pattern) -> bool {
-        std::iter::successors(Some(node), |n| self.nodes[*n].parent).any(|n| pattern.matches(&self.nodes[n].name))
-    }
-
-    /// For each node whether one of the patterns matches it, each name looked at once.
+    /// For each node whether one of the patterns matches its own name or any ancestor's, each name looked at once.
     pub(crate) fn nodes_matching<'p>(&self, patterns: impl IntoIterator<Item = &'p Pattern>) -> Vec<bool> {
         let set = PatternSet::new(patterns);
         let own: Vec<bool> = self.nodes.iter().map(|node| set.matches(&node.name)).collect();
@@ -188,18 +179,11 @@ impl Model {
     }
 }
 
-fn help(nearest: Option<&str>, what: &str) -> String {
-    match nearest {
+fn help<'a>(name: &str, known: impl Iterator<Item = &'a str>, what: &str) -> String {
+    match suggest::nearest(name, known) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("`lenspeel info` lists the {what} of a model"),
     }
-}
-
-/// The name that is most like one, if any is.
-pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let likeness = names.filter(|n| !n.is_empty()).map(|n| (strsim::jaro_winkler(n, name), n));
-    let (score, nearest) = likeness.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (score > 0.8).then_some(nearest)
 }
 
 fn or_number(name: &str, kind: &str, number: usize) -> String {

@@ -140,9 +140,9 @@ impl Scene {
                 _ => {}
             }
         }
-        self.simplify(spec);
+        self.simplify(spec)?;
         if self.has_edges {
-            self.models.iter_mut().for_each(Model::add_across);
+            self.models.iter_mut().try_for_each(|model| model.add_across(&mut self.budget))?;
         }
         Ok(())
     }
@@ -167,7 +167,7 @@ impl Scene {
             return Ok(());
         }
         if name == CURVATURE {
-            self.models.iter_mut().for_each(add_curvature);
+            self.models.iter_mut().try_for_each(|model| add_curvature(model, &mut self.budget))?;
         }
         match (fitted_range(&self.models, name), quantity) {
             (Some(range), _) => _ = self.value_ranges.insert(name.into(), range),

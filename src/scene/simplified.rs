@@ -7,7 +7,9 @@ use rayon::prelude::*;
 
 use super::vertex_values::places;
 use super::{Edges, Model, Primitive, Scene, Selections, Subject};
+use crate::InputError;
 use crate::spec::{At, Filter, LensSpec, Spec, lod};
+use crate::words::count_of;
 
 /// A primitive with fewer triangles.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +29,10 @@ pub struct Simplified {
 const MOST_LEFT: f32 = 1.5;
 /// How far a surface may move, as a share of its mesh's longest side: a box stays a box.
 const LARGEST_ERROR: f32 = 0.05;
+
+/// Bytes of a triangle of a version, and of one of a primitive while its versions are made.
+const KEPT: u64 = 12;
+const PASSING: u64 = 256;
 
 impl Simplified {
     /// Collapses edges in the order of their quadric errors (Garland and Heckbert 1997, as meshoptimizer has it), until the
@@ -57,16 +63,17 @@ const FITS: f32 = 0.5;
 /// side has vertices of its own, and a collapse may have taken the other side's.
 fn fit_normals(primitive: &Primitive, triangles: &mut [[u32; 3]]) {
     let Some(normals) = &primitive.normals else { return };
-    let place = places(primitive);
-    let mut at_place = vec![Vec::new(); place.iter().max().map_or(0, |last| last + 1)];
-    (0u32..).zip(&place).for_each(|(vertex, place)| at_place[*place].push(vertex));
+    let place = places(&primitive.positions);
+    let mut at_place = vec![Vec::new(); place.iter().max().map_or(0, |last| *last as usize + 1)];
+    (0u32..).zip(&place).for_each(|(vertex, place)| at_place[*place as usize].push(vertex));
     for corners in triangles {
         let [a, b, c] = corners.map(|corner| primitive.positions[corner as usize]);
         let across = (b - a).cross(c - a).normalize_or_zero();
         for corner in corners {
             let fit = |vertex: &u32| normals[*vertex as usize].dot(across);
             if fit(corner) < FITS
-                && let Some(best) = at_place[place[*corner as usize]].iter().max_by(|a, b| fit(a).total_cmp(&fit(b)))
+                && let Some(best) =
+                    at_place[place[*corner as usize] as usize].iter().max_by(|a, b| fit(a).total_cmp(&fit(b)))
             {
                 *corner = *best;
             }
@@ -95,10 +102,17 @@ impl Primitive {
 
 impl Scene {
     /// Makes the versions that lenses and rules with `lod` may show; those that are there already stay.
-    pub(super) fn simplify(&mut self, spec: &Spec) {
+    pub(super) fn simplify(&mut self, spec: &Spec) -> Result<(), InputError> {
         let ratios: Vec<_> = lods(spec).collect();
         for model in &mut self.models {
             let wanted: Vec<_> = wanted(model, &ratios).into_iter().collect();
+            let triangles = |mesh: usize, number: usize| model.meshes[mesh].primitives[number].triangles.len() as u64;
+            let all: u64 = wanted.iter().map(|(mesh, number, _)| triangles(*mesh, *number)).sum();
+            let primitives: BTreeSet<_> = wanted.iter().map(|(mesh, number, _)| (*mesh, *number)).collect();
+            let passing = PASSING * primitives.into_iter().map(|(mesh, number)| triangles(mesh, number)).sum::<u64>();
+            let versions = count_of(wanted.len(), "simplified version");
+            let what = || format!("{}: {versions} of {all} triangles", model.name);
+            self.budget.take(KEPT * all + passing, what)?;
             let make = |(mesh, number, ratio): &(usize, usize, u32)| {
                 Simplified::new(&model.meshes[*mesh].primitives[*number], f32::from_bits(*ratio))
             };
@@ -106,7 +120,9 @@ impl Scene {
             for ((mesh, number, _), simplified) in wanted.into_iter().zip(made) {
                 model.meshes[mesh].primitives[number].simplified.push(simplified);
             }
+            self.budget.give_back(passing);
         }
+        Ok(())
     }
 }
 
@@ -233,9 +249,9 @@ mod tests {
             fits.fold(1.0, f32::min)
         };
         // Each corner turned to the vertex at its place that fits least, and back.
-        let place = places(&ball);
+        let place = places(&ball.positions);
         let mut turned = ball.triangles.clone();
-        let last_at: std::collections::HashMap<usize, u32> = place.iter().copied().zip(0u32..).collect();
+        let last_at: std::collections::HashMap<u32, u32> = place.iter().copied().zip(0u32..).collect();
         turned.as_flattened_mut().iter_mut().for_each(|corner| *corner = last_at[&place[*corner as usize]]);
         let before = worst(&turned);
         fit_normals(&ball, &mut turned);

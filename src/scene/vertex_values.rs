@@ -2,10 +2,11 @@
 
 use std::collections::HashMap;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Model, Primitive};
+use super::{Budget, Model, Primitive};
+use crate::InputError;
 
 /// The name of curvature among a primitive's values; attributes of a file begin with `_`.
 pub const CURVATURE: &str = "curvature";
@@ -13,13 +14,24 @@ pub const CURVATURE: &str = "curvature";
 /// Vertices beyond these shares lie outside a fitted range of curvatures.
 const FITTED: f64 = 0.95;
 
+/// Bytes that a vertex and a triangle take while curvature is computed.
+const PASSING_VERTEX: u64 = 128;
+const PASSING_TRIANGLE: u64 = 24;
+
 /// Adds the curvature of every primitive to its values.
-pub fn add_curvature(model: &mut Model) {
+pub fn add_curvature(model: &mut Model, budget: &mut Budget) -> Result<(), InputError> {
+    let all = || model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let vertices: u64 = all().map(|primitive| primitive.positions.len() as u64).sum();
+    let triangles: u64 = all().map(|primitive| primitive.triangles.len() as u64).sum();
+    let (kept, passing) = (4 * vertices, PASSING_VERTEX * vertices + PASSING_TRIANGLE * triangles);
+    budget.take(kept + passing, || format!("{}: curvature at {vertices} vertices", model.name))?;
     let primitives: Vec<&mut Primitive> = model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives).collect();
     primitives.into_par_iter().for_each(|primitive| {
         let values = curvature(primitive);
         primitive.values.insert(CURVATURE.into(), values);
     });
+    budget.give_back(passing);
+    Ok(())
 }
 
 /// The range that a filter without one shows: of an attribute all values, of curvature most of them around zero. `None`
@@ -57,7 +69,7 @@ pub fn scene_factor(name: &str, world_from_local: &DAffine3) -> f32 {
 /// that meet there of how much the normal turns along each (Taubin's normal curvature, 1995). Vertices at one place count as
 /// one, and normals are those of the triangles around it, by their angles, so that no edge is sharp.
 fn curvature(primitive: &Primitive) -> Vec<f32> {
-    let place = places(primitive);
+    let place: Vec<usize> = places(&primitive.positions).into_iter().map(|place| place as usize).collect();
     let count = place.iter().max().map_or(0, |last| last + 1);
     let mut points = vec![DVec3::ZERO; count];
     place.iter().zip(&primitive.positions).for_each(|(i, p)| points[*i] = p.as_dvec3());
@@ -89,21 +101,19 @@ fn curvature(primitive: &Primitive) -> Vec<f32> {
 }
 
 /// A number for each vertex, the same for all at one place.
-pub(super) fn places(primitive: &Primitive) -> Vec<usize> {
+pub(super) fn places(positions: &[Vec3]) -> Vec<u32> {
     let mut known = HashMap::new();
-    let number = |p: &glam::Vec3| {
-        let next = known.len();
+    let number = |p: &Vec3| {
+        let next = known.len() as u32;
         // -0 is 0.
-        *known.entry((*p + glam::Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
+        *known.entry((*p + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
     };
-    primitive.positions.iter().map(number).collect()
+    positions.iter().map(number).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use std::f32::consts::{PI, TAU};
-
-    use glam::Vec3;
 
     use super::super::{Mesh, Node, Transform};
     use super::*;
@@ -162,7 +172,7 @@ mod tests {
         };
         let mut model = Model { meshes: vec![mesh], nodes: vec![node(2.0)], ..Model::default() };
         assert_eq!(fitted_range(std::slice::from_ref(&model), CURVATURE), None);
-        add_curvature(&mut model);
+        add_curvature(&mut model, &mut Budget::default()).expect("it is small");
         model.meshes[0].primitives[0].values.insert("_HEAT".into(), vec![3.0, -1.0, 2.0]);
         let models = [model];
         assert_eq!(fitted_range(&models, "_HEAT"), Some([-1.0, 3.0]));

@@ -9,7 +9,7 @@ mod shape;
 mod types;
 
 pub use color::Color;
-pub use pattern::{Names, Pattern, PatternSet};
+pub use pattern::{Names, NamesSize, Pattern, PatternSet};
 pub use range::NumberRange;
 pub(crate) use read::{keys, suggest};
 pub use shape::{Convex, MeshShape, Rotation, Shape};

@@ -104,6 +104,31 @@ impl<'a> Names<'a> {
     }
 }
 
+/// How many names there are, and how many bytes they have together.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NamesSize {
+    pub count: u64,
+    pub bytes: u64,
+}
+
+impl<'a> FromIterator<&'a str> for NamesSize {
+    fn from_iter<I: IntoIterator<Item = &'a str>>(names: I) -> Self {
+        let add = |all: Self, name: &str| Self { count: all.count + 1, bytes: all.bytes + name.len() as u64 };
+        names.into_iter().fold(Self::default(), add)
+    }
+}
+
+impl NamesSize {
+    /// What it takes to hold the wildcards of a list against the names, as
+    /// [`MAX_COMPARISONS`](crate::limits::MAX_COMPARISONS) counts: a pattern and a name take at most the product of both
+    /// lengths, and a sixteenth of that counts.
+    pub fn steps<'p>(&self, patterns: impl IntoIterator<Item = &'p Pattern>) -> u64 {
+        let wild = patterns.into_iter().filter(|pattern| pattern.has_wildcard());
+        let (wild, length) = wild.fold((0u64, 0u64), |(wild, length), p| (wild + 1, length + p.0.len() as u64));
+        wild.saturating_mul(self.count).saturating_add(length.saturating_mul(self.bytes) / 16)
+    }
+}
+
 /// A list of patterns made ready to be asked about many names.
 #[derive(Debug, Clone)]
 pub struct PatternSet<'a> {

@@ -533,3 +533,16 @@ pub enum Condition {
     And(Box<Condition>, Box<Condition>),
     Or(Box<Condition>, Box<Condition>),
 }
+
+impl Condition {
+    /// All that it names, as they stand.
+    pub fn patterns(&self) -> Vec<&At<Pattern>> {
+        match self {
+            Condition::Lens(pattern) => vec![pattern],
+            Condition::Not(inner) => inner.patterns(),
+            Condition::And(left, right) | Condition::Or(left, right) => {
+                left.patterns().into_iter().chain(right.patterns()).collect()
+            }
+        }
+    }
+}

@@ -16,6 +16,7 @@ pub fn trials() -> Vec<Trial> {
         trial("an-open-mesh-is-named-and-left-open", open_mesh),
         trial("open-and-turned-and-touching-edges-are-told-apart", told_apart),
         trial("an-open-mesh-that-the-lens-is-not-there-for-is-not-named", open_mesh_out_of_scope),
+        trial("an-open-mesh-that-the-lens-does-not-reach-is-not-named", open_mesh_out_of_reach),
         trial("an-eraser-without-a-cap-closes-nothing", without_cap),
         trial("what-takes-whole-objects-closes-nothing", by_object),
         trial("a-hole-turned-the-wrong-way-changes-the-area", turned_hole),
@@ -80,6 +81,20 @@ fn open_mesh_out_of_scope() -> Result<(), String> {
         Ok(())
     } else {
         Err(format!("{:?}", opened.plan.warnings))
+    }
+}
+
+fn open_mesh_out_of_reach() -> Result<(), String> {
+    let mut torn = ball(0.2, 64);
+    torn.triangles.remove(64 * 31 + 32);
+    let parts = || vec![("ball", vec![ball(1.0, 64)]), ("torn", vec![torn.clone()])];
+    let warnings = |lenses: &str| planned(parts(), SIDE, ABOVE, lenses).plan.warnings;
+    let moved = above(0.3, CAP)
+        + "[[lens]]\nname = \"up\"\nshape.sphere = { center = [0, 0, 0], radius = 3 }\n\
+        filters = [{ displace = { nodes = [\"torn\"], offset = [0, 0, 0.3] } }]\n";
+    match (warnings(&above(0.3, CAP)).len(), warnings(&moved).len()) {
+        (0, 1) => Ok(()),
+        (out_of_reach, moved) => Err(format!("{out_of_reach} warnings, and {moved} where it is moved there")),
     }
 }
 

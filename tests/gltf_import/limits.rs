@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lenspeel::cli::{InfoChoice, info_json, info_text};
-use lenspeel::scene::{Model, OpenOptions};
-use lenspeel::spec::Pattern;
+use lenspeel::scene::{Model, OpenOptions, Scene};
+use lenspeel::spec::{Pattern, Spec};
 use serde_json::{Value, json};
 
 use super::builder::*;
@@ -103,6 +103,26 @@ fn memory_is_counted_before_it_is_taken() {
 }
 
 #[test]
+fn what_filters_and_mesh_lenses_compute_counts_before_it_is_computed() {
+    let path = folder("computed").join("fan.gltf");
+    fs::write(&path, zero_fans(1, 60_000)).expect("written");
+    let path = path.display().to_string();
+    let ball = "sphere = { center = [0, 0, 0], radius = 1 }".to_owned();
+    for (shape, filter, part) in [
+        (&ball, "'wireframe'", "what lies across the edges of 59998 triangles, for wires: it takes about"),
+        (&ball, "'curvature'", "curvature at 60000 vertices: it takes about"),
+        (&ball, "'lod'", "1 simplified version of 59998 triangles: it takes about"),
+        (&format!("mesh = {{ file = {path:?} }}"), "'invert'", "a lens of 59998 triangles of"),
+    ] {
+        let text = format!("[scene]\nfile = {path:?}\n[[lens]]\nname = 'a'\nshape.{shape}\nfilters = [{filter}]\n");
+        let spec = Spec::parse(&text, "a test", Path::new("")).expect("a spec");
+        let options = OpenOptions { memory_limit: 6 << 20, ..OpenOptions::default() };
+        let error = Scene::open_with(&spec, &options).expect_err("it takes more").to_string();
+        assert!(error.contains(part) && error.contains("the limit is 6.0 MiB"), "{error}");
+    }
+}
+
+#[test]
 fn images_count_before_they_are_decoded() {
     let path = folder("images").join("m.gltf");
     let mut doc = Doc::new();
@@ -118,6 +138,30 @@ fn images_count_before_they_are_decoded() {
     let error = load(8 << 20).expect_err("a million pixels take more").to_string();
     assert!(error.contains("image 0 `dark`, with 1000 x 1000 pixels: it takes about 15.3 MiB of memory"), "{error}");
     assert_eq!(load(32 << 20).expect("it fits").images[0].width, 1000);
+}
+
+#[test]
+fn images_that_do_not_decode_count_no_more() {
+    // Each claims so many pixels that two of them would be too many, and ends before they come.
+    let whole = png(image::DynamicImage::new_luma8(1000, 1000));
+    let torn = [&whole[..whole.len() / 2], b"torn"].concat();
+    let mut doc = Doc::new();
+    let position = doc.square();
+    doc.show(json!({"attributes": {"POSITION": position}, "mode": 6, "material": 0}));
+    doc.push("materials", json!({"emissiveTexture": {"index": 0}}));
+    doc.push("textures", json!({"source": 0}));
+    let image = doc.view(&torn);
+    doc.push("images", json!({"bufferView": image, "name": "torn"}));
+    let torn_alone = folder("torn").join("m.gltf");
+    fs::write(&torn_alone, doc.gltf()).expect("written");
+    let text = format!(
+        "[scene]\nfile = {path:?}\n[scene.alternates]\na = {path:?}\nb = {path:?}\n",
+        path = torn_alone.display().to_string()
+    );
+    let spec = Spec::parse(&text, "a test", Path::new("")).expect("a spec");
+    let options = OpenOptions { memory_limit: 24 << 20, ..OpenOptions::default() };
+    let scene = Scene::open_with(&spec, &options).expect("the pixels of the first are given back");
+    assert!(scene.models.iter().all(|model| model.warnings.iter().any(|line| line.contains("torn"))));
 }
 
 #[test]

@@ -75,9 +75,8 @@ fn layers_rise_from_near_to_far_and_are_at_most_2n_plus_1() {
                     |pair| pair[1].depth - pair[0].depth > 1e-5 * pair[0].depth.abs() || pair[0].depth == view.near
                 )
             );
-            assert_eq!(found.count(), found.starts.len());
-            assert!(found.count() <= 2 * volumes.len() + 1);
-            most = most.max(found.count());
+            assert!(found.starts.len() <= 2 * volumes.len() + 1);
+            most = most.max(found.starts.len());
         }
     }
     assert!(most >= 8, "no ray has more than {most} layers");
@@ -160,7 +159,7 @@ fn a_real_gap_stays_one() {
     let ray = Ray::new(DVec3::ZERO, DVec3::X);
     let counts = [0.0, 1e-7, 1e-4, 1e-3].map(|gap| {
         let volumes = [block(1.0, 2.0), block(2.0 + gap, 3.0)];
-        layers(&volumes, &ray, 0.5, 10.0).count()
+        layers(&volumes, &ray, 0.5, 10.0).starts.len()
     });
     assert_eq!(counts, [4, 4, 5, 5]);
 }

@@ -76,6 +76,19 @@ fn names_that_may_have_been_meant_are_told() {
 }
 
 #[test]
+fn of_very_many_names_that_match_nothing_the_first_are_told() {
+    let names: Vec<String> = (0..25).map(|i| format!("'none-{i}'")).collect();
+    let lens = "[[lens]]\nname = 'a'\nshape.sphere = { center = [0, 0, 0], radius = 1 }\nfilters = ['invert']\n";
+    let hide = format!("hide = [{}]\n", names.join(", "));
+    let out = check_cubes("check-many", &(hide + lens));
+    assert_eq!(out.matches("`hide` matches nothing").count(), 20, "{out}");
+    assert!(out.contains("and 5 more patterns match nothing"), "{out}");
+    let rule = "[[overlap]]\nwhen = 'a'\nfilters = [{ erase = { nodes = ['nowhere'] } }]\n";
+    let out = check_cubes("check-rule", &format!("{lens}{rule}"));
+    assert!(out.contains("spec.toml:9: `erase` of the rule in line 8 matches nothing: `nowhere`"), "{out}");
+}
+
+#[test]
 fn lenses_that_mean_nothing_are_told() {
     let lens = |name: &str, keys: &str| format!("[[lens]]\nname = '{name}'\n{keys}\nfilters = ['invert']\n");
     let near = "shape.sphere = { center = [0, 0, 0], radius = 1 }";

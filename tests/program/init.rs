@@ -3,21 +3,7 @@
 use std::fs;
 
 use crate::call::{Folder, call, call_with, project};
-
-/// A model of one triangle with these coordinates.
-fn triangle(folder: &Folder, name: &str, far: f32) -> String {
-    let numbers: Vec<u8> =
-        [0.0, 0.0, 0.0, far, 0.0, 0.0, 0.0, far, 0.0].iter().flat_map(|x: &f32| x.to_le_bytes()).collect();
-    fs::write(folder.file("t.bin"), &numbers).expect("written");
-    let json = format!(
-        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
-        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
-        "buffers": [{{"uri": "t.bin", "byteLength": 36}}], "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
-        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-        "min": [0, 0, 0], "max": [{far}, {far}, 0]}}]}}"#
-    );
-    folder.write(name, &json)
-}
+use crate::model::{triangle, triangles};
 
 fn file_of(spec: &str) -> String {
     let table: toml::Table = spec.parse().expect("TOML");
@@ -55,7 +41,7 @@ fn a_model_that_no_spec_fits_is_to_blame() {
     let model = triangle(&folder, "huge.gltf", 1e30);
     for arguments in [vec!["init", &model], vec!["init", &model, "-o", &folder.file("a.toml")]] {
         let report = call(&arguments).refused();
-        assert!(report.contains("huge.gltf: no starter spec fits the model, whose bounds are 1"), "{report}");
+        assert!(report.contains("huge.gltf: node 0 reaches 1.0e30 units from the origin"), "{report}");
         assert!(!report.contains("│"), "no line of a spec is shown: {report}");
     }
     assert_eq!(folder.names(), ["huge.gltf", "t.bin"]);
@@ -89,4 +75,16 @@ fn a_model_in_place_of_a_spec_is_told_what_to_do() {
             assert!(report.contains(&format!("`lenspeel init {model} -o SPEC.toml`")), "{report}");
         }
     }
+}
+
+#[test]
+fn a_hidden_node_is_not_what_a_starter_spec_erases() {
+    let folder = Folder::new("init-hidden");
+    let nodes = [
+        r#"{"name": "large", "mesh": 0, "scale": [2, 2, 2]}"#,
+        r#"{"name": "small", "mesh": 0}"#,
+        r#"{"name": "hidden", "mesh": 0, "scale": [9, 9, 9], "extensions": {"KHR_node_visibility": {"visible": false}}}"#,
+    ];
+    let out = call(&["init", &triangles(&folder, "parts.gltf", 1.0, &nodes)]).good();
+    assert!(out.contains(r#"erase = { nodes = ["large"] }"#), "{out}");
 }

@@ -5,6 +5,8 @@ mod check;
 mod explain;
 mod init;
 mod legend;
+mod model;
+mod names;
 mod outputs;
 mod pick;
 mod render;

@@ -60,6 +60,7 @@ fn a_picture_its_maps_and_its_statistics_are_written() {
 
     let stats = folder.json("stats.json");
     assert_eq!(stats["size"], serde_json::json!(SIZE));
+    assert_eq!((&stats["backend"], &stats["reason"]), (&"cpu".into(), &"it was asked for".into()));
     assert_eq!(stats["lenses"], 3);
     assert_eq!(stats["triangles"], 972);
     assert!(stats["seconds"]["render"].as_f64().is_some_and(|seconds| seconds > 0.0), "{stats}");

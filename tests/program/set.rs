@@ -69,6 +69,15 @@ fn every_command_that_takes_a_spec_takes_settings() {
 }
 
 #[test]
+fn reasons_name_the_setting() {
+    let out = set("explain", &["lens.a.over=['b']", "lens.c.name=\"d\""], &["--size", "8x6"]).good();
+    assert!(out.contains("`over` in --set lens.a.over=['b'] puts b below a"), "{out}");
+    assert!(out.contains("d (--set lens.c.name=\"d\")"), "{out}");
+    let dot = set("explain", &["lens.a.over=[\"b\"]"], &["--size", "8x6", "--format", "dot"]).good();
+    assert!(dot.contains("[label = \"over, --set lens.a.over=['b']\"]"), "{dot}");
+}
+
+#[test]
 fn faults_are_shown_in_the_setting() {
     for (setting, parts) in [
         ("lens.a.radius=-1", ["[--set:1:15]", "lens.a.radius=-1", "above 0"]),

@@ -1,6 +1,15 @@
 //! Standard output and standard error: what cannot be said costs nothing, what cannot be given is an error.
 
-use crate::call::{Folder, call, project};
+use std::process::Command;
+
+use crate::call::{Call, Folder, call, call_with, project};
+
+/// Renders a small picture.
+fn render(picture: &str, more: &[&str], change: impl FnOnce(&mut Command)) -> Call {
+    let spec = project("lens-specs/overlap/three-spheres.toml");
+    let arguments = ["render", &spec, "-o", picture, "--size", "8x6", "--backend", "cpu"];
+    call_with(&[&arguments[..], more].concat(), change)
+}
 
 #[test]
 fn messages_are_not_broken_where_no_terminal_is() {
@@ -31,18 +40,9 @@ fn colours_are_a_matter_of_choice() {
 fn quiet_leaves_warnings_and_errors() {
     let folder = Folder::new("streams-quiet");
     let picture = folder.file("a.png");
-    let render = [
-        "render",
-        &project("lens-specs/overlap/three-spheres.toml"),
-        "-o",
-        &picture,
-        "--size",
-        "8x6",
-        "--backend",
-        "cpu",
-    ];
-    assert_eq!(call(&render).err, format!("cpu: it was asked for\nwrote {picture}\n"));
-    assert_eq!(call(&[&render[..], &["-q"]].concat()).err, "");
+    let told = format!("cpu: it was asked for\nwrote {picture}\n");
+    assert_eq!(render(&picture, &[], |_| ()).err, told);
+    assert_eq!(render(&picture, &["-q"], |_| ()).err, "");
     assert!(!call(&["check", "none.toml", "-q"]).err.is_empty());
     // Nobody asked.
     let explain = ["explain", &project("lens-specs/overlap/three-spheres.toml"), "--size", "8x6"];
@@ -53,10 +53,9 @@ fn quiet_leaves_warnings_and_errors() {
 #[cfg(target_os = "linux")]
 mod linux {
     use std::fs::{File, OpenOptions};
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
 
     use super::*;
-    use crate::call::call_with;
 
     fn full() -> Stdio {
         OpenOptions::new().write(true).open("/dev/full").expect("Linux has it").into()
@@ -74,22 +73,11 @@ mod linux {
     fn what_cannot_be_said_costs_nothing() {
         let folder = Folder::new("streams-stderr");
         let picture = folder.file("a.png");
-        let arguments = [
-            "render",
-            &project("lens-specs/overlap/three-spheres.toml"),
-            "-o",
-            &picture,
-            "--size",
-            "8x6",
-            "--backend",
-            "cpu",
-            "--time",
-        ];
-        let good = call(&arguments);
+        let good = render(&picture, &["--time"], |_| ());
         assert_eq!(good.code, Some(0), "{}", good.err);
         let bytes = folder.read("a.png");
         std::fs::remove_file(&picture).expect("it is there");
-        call_with(&arguments, |command| _ = command.stderr(full())).good();
+        render(&picture, &["--time"], |command| _ = command.stderr(full())).good();
         assert_eq!(folder.read("a.png"), bytes);
         std::fs::remove_file(&picture).expect("it is there");
         let closed = shell("\"$1\" render \"$2\" -o \"$3\" --size 8x6 --backend cpu 2>&-", &picture);
@@ -121,10 +109,8 @@ mod linux {
             assert!(full.refused().contains("standard output cannot be written: No space left"), "{arguments:?}");
             // Opened for reading only.
             let other = call_with(arguments, |command| _ = command.stdout(File::open("/dev/null").expect("a device")));
-            assert!(
-                arguments[0].contains("he") || arguments[0].contains("--") || other.code == Some(1),
-                "{arguments:?}"
-            );
+            // Those of clap, which takes what cannot be written for written.
+            assert!(["help", "--version"].contains(&arguments[0]) || other.code == Some(1), "{arguments:?}");
         }
     }
 

@@ -1,6 +1,7 @@
 //! `info`, `init`, `filters`, `schema`.
 
 use crate::call::{Folder, call, project};
+use crate::model::triangle;
 
 #[test]
 fn info_describes_a_model() {
@@ -11,6 +12,16 @@ fn info_describes_a_model() {
     }
     let report = call(&["info", &project("Cargo.toml")]).refused();
     assert!(report.contains("Cargo.toml"), "{report}");
+}
+
+#[test]
+fn one_is_told_as_one() {
+    let folder = Folder::new("info-one");
+    let out = call(&["info", &triangle(&folder, "one.gltf", 1.0)]).good();
+    for part in ["1 triangle shown, 1 stored in 1 mesh\n", "3 vertices, 1 node (1 shown)\n", "mesh 0  1 triangle  open"]
+    {
+        assert!(out.contains(part), "{part}: {out}");
+    }
 }
 
 #[test]

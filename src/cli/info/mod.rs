@@ -11,6 +11,7 @@ use glam::DVec3;
 use super::args::InfoArgs;
 use crate::scene::{Aabb, AlphaMode, Animation, Camera, LightKind, Material, Mesh, Model};
 use crate::spec::Pattern;
+use crate::words::count_of;
 use crate::{InputError, printable};
 
 pub use json::info_json;
@@ -38,14 +39,7 @@ impl InfoChoice {
 
     /// For each node whether it is listed: its own name or an ancestor's counts, as in a spec.
     fn nodes(&self, model: &Model) -> Vec<bool> {
-        let mut is_in = vec![false; model.nodes.len()];
-        let mut open: Vec<usize> = (0..model.nodes.len()).filter(|n| model.nodes[*n].parent.is_none()).collect();
-        while let Some(node) = open.pop() {
-            let above = model.nodes[node].parent.is_some_and(|parent| is_in[parent]);
-            is_in[node] = above || self.has_name(&model.nodes[node].name);
-            open.extend(&model.nodes[node].children);
-        }
-        is_in
+        if self.is_limited() { model.nodes_matching(&self.patterns) } else { vec![true; model.nodes.len()] }
     }
 
     /// A name as it is listed, or that there is none.
@@ -73,7 +67,8 @@ pub fn info_text(model: &Model, choice: &InfoChoice) -> String {
         section(&mut out, "nodes", &nodes::matching(model, choice));
         section(&mut out, "materials", &materials(model, choice));
         if !out.contains("\n\n") {
-            out += "  no node and no material has a name that matches; names mind case, `*` and `?` stand for others\n";
+            out += "  no node and no material has a name that matches; upper and lower case differ, `*` stands for any \
+                    characters, `?` for one\n";
         }
         return out;
     }
@@ -121,8 +116,10 @@ fn totals(model: &Model, out: &mut String) {
     let shown: usize = drawn.iter().filter_map(|n| n.mesh).map(|m| triangles(&model.meshes[m])).sum();
     let stored: usize = model.meshes.iter().map(triangles).sum();
     let vertices: usize = model.meshes.iter().flat_map(|m| &m.primitives).map(|p| p.positions.len()).sum();
-    let _ = writeln!(out, "  {shown} triangles shown, {stored} stored in {} meshes", model.meshes.len());
-    let _ = writeln!(out, "  {vertices} vertices, {} nodes ({} shown)", model.nodes.len(), drawn.len());
+    let [shown, meshes] = [(shown, "triangle"), (model.meshes.len(), "mesh")].map(|(n, noun)| count_of(n, noun));
+    let _ = writeln!(out, "  {shown} shown, {stored} stored in {meshes}");
+    let [vertices, nodes] = [(vertices, "vertex"), (model.nodes.len(), "node")].map(|(n, noun)| count_of(n, noun));
+    let _ = writeln!(out, "  {vertices}, {nodes} ({} shown)", drawn.len());
     let bounds = model.bounds();
     let _ = writeln!(out, "  bounds {}", bounds_text(&bounds));
     if !bounds.is_empty() {
@@ -265,7 +262,7 @@ fn animations(model: &Model) -> Vec<Row> {
         let mut nodes: Vec<usize> = animation.channels.iter().map(|c| c.node).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let moves = format!("moves {} node{}", nodes.len(), if nodes.len() == 1 { "" } else { "s" });
+        let moves = format!("moves {}", count_of(nodes.len(), "node"));
         let cells = vec![index.to_string(), named(&animation.name), moves, format!("to {} s", number(animation.end()))];
         Row { cells }
     };

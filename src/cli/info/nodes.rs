@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::{InfoChoice, Row, bounds_text, triangles};
 use crate::printable;
 use crate::scene::{Aabb, Model};
+use crate::words::count_of;
 
 /// Siblings that have a name in common, less its number, are one line from so many on.
 const FEWEST_OF_A_GROUP: usize = 4;
@@ -135,8 +136,9 @@ fn row(model: &Model, choice: &InfoChoice, index: usize, before: &str) -> Row {
             (_, 0) => "closed",
             _ => "closed in parts",
         };
-        cells.push(format!("{} triangles", triangles(&model.meshes[mesh])));
-        cells.push(if triangles(&model.meshes[mesh]) == 0 { String::new() } else { closed.into() });
+        let triangles = triangles(&model.meshes[mesh]);
+        cells.push(count_of(triangles, "triangle"));
+        cells.push(if triangles == 0 { String::new() } else { closed.into() });
         cells.push(bounds_text(&model.node_bounds(index)));
     }
     Row { cells }
@@ -149,8 +151,8 @@ fn group(model: &Model, pattern: &str, nodes: &[usize], depth: usize) -> Row {
         0 => String::new(),
         below => format!(", {below} below them"),
     };
-    let mut cells = vec![format!("{}{name}", indent(depth)), format!("{} nodes{below}", nodes.len())];
-    cells.push(format!("{triangles} triangles"));
+    let mut cells = vec![format!("{}{name}", indent(depth)), count_of(nodes.len(), "node") + &below];
+    cells.push(count_of(triangles, "triangle"));
     cells.push(match (meshes, closed) {
         (0, _) => String::new(),
         (all, closed) if all == closed => "closed".into(),
@@ -163,8 +165,8 @@ fn group(model: &Model, pattern: &str, nodes: &[usize], depth: usize) -> Row {
 
 fn rest(model: &Model, nodes: &[usize], depth: usize) -> Row {
     let Under { nodes: count, triangles, .. } = Under::of(model, nodes);
-    let text = format!("{}... and {count} more nodes", indent(depth));
-    Row { cells: vec![text, "(--all, or a pattern as 'Wheel*')".into(), format!("{triangles} triangles")] }
+    let text = format!("{}... and {}", indent(depth), count_of(count, "more node"));
+    Row { cells: vec![text, "(--all, or a pattern as 'Wheel*')".into(), count_of(triangles, "triangle")] }
 }
 
 /// What some subtrees have together.

@@ -32,9 +32,13 @@ fn parameters(row: &FilterRow) -> Value {
     let required: Vec<&str> =
         row.params.iter().filter(|param| param.default == ParamDefault::Required).map(|param| param.name).collect();
     let mut schema = table(&required, properties.into());
-    if row.name == "show" {
-        let nodes_alone = json!({ "required": ["nodes"], "properties": { "materials": false } });
-        schema["anyOf"] = json!([{ "required": ["alternate"] }, nodes_alone]);
+    match row.name {
+        "show" => {
+            let nodes_alone = json!({ "required": ["nodes"], "properties": { "materials": false } });
+            schema["anyOf"] = json!([{ "required": ["alternate"] }, nodes_alone]);
+        }
+        "erase" => schema["dependentRequired"] = json!({ "outline": ["cap"] }),
+        _ => {}
     }
     described(schema, row.help, Value::Null)
 }

@@ -61,7 +61,7 @@ pub fn cap() -> Value {
 pub fn outline() -> Value {
     let default = Outline::default();
     let properties = json!({
-        "width": described(number(LINE_WIDTH), "Pixels.", default.width.into()),
+        "width": described(number(LINE_WIDTH), "Of the line, pixels.", default.width.into()),
         "color": described(reference("color"), "Of the line.", default.color.to_string().into()),
     });
     table(&[], properties)
@@ -88,6 +88,11 @@ pub fn described(mut schema: Value, help: &str, default: Value) -> Value {
         schema["default"] = default;
     }
     schema
+}
+
+/// A list of at most so many tables.
+pub fn tables(help: &str, most: usize, table: Value) -> Value {
+    json!({ "description": help, "type": "array", "maxItems": most, "items": table })
 }
 
 /// A table with these keys and no others.

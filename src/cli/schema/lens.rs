@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::kinds::{described, number, patterns, reference, table, text, vector};
+use crate::limits::MAX_NAME;
 use crate::spec::{Glass, NumberRange};
 
 const NONE: Value = Value::Null;
@@ -10,8 +11,9 @@ const NONE: Value = Value::Null;
 pub fn lens() -> Value {
     let flag = json!({ "type": "boolean" });
     let overlap = json!({ "enum": ["stack", "override"] });
+    let name = json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$", "maxLength": MAX_NAME });
     let properties = json!({
-        "name": { "description": "Unique; letters, digits, - and _.", "type": "string", "pattern": "^[A-Za-z0-9_-]+$" },
+        "name": described(name, "Unique; letters, digits, - and _.", NONE),
         "enabled": described(flag, "false: takes part in nothing.", json!(true)),
         "shape": reference("shape"),
         "attach": attach(),

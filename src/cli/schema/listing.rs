@@ -29,6 +29,7 @@ pub const TABLES: &[Listed] = &[
     listed("`attach` to a node", "/properties/lens/items/properties/attach/anyOf/1", keys::ATTACH),
     listed("`only`, `except`", "/$defs/matches", keys::MATCHES),
     listed("`glass`", "/properties/lens/items/properties/glass/anyOf/1", keys::GLASS),
+    listed("`outline` of `erase`", "/$defs/filter/anyOf/1/properties/erase/properties/outline", keys::OUTLINE),
     listed("`[[overlap]]`", "/properties/overlap/items", keys::OVERLAP),
     listed("`[animation]`", "/properties/animation", keys::ANIMATION),
     listed("`[[animation.track]]`", "/properties/animation/properties/track/items", keys::TRACK),

@@ -10,6 +10,8 @@ mod tables;
 pub use listing::{Row, keys_markdown, shape_rows};
 use serde_json::{Value, json};
 
+use crate::limits::{MAX_RULES, MAX_WRITTEN_LENSES};
+
 /// The schema of a whole spec file.
 pub fn schema() -> Value {
     json!({
@@ -25,8 +27,8 @@ pub fn schema() -> Value {
             "camera": tables::camera(),
             "image": tables::image(),
             "light": tables::light(),
-            "lens": { "description": "Lenses, in file order.", "type": "array", "maxItems": 256, "items": lens::lens() },
-            "overlap": { "description": "Explicit styles for overlaps.", "type": "array", "items": lens::overlap() },
+            "lens": kinds::tables("Lenses, in file order.", MAX_WRITTEN_LENSES, lens::lens()),
+            "overlap": kinds::tables("Explicit styles for overlaps.", MAX_RULES, lens::overlap()),
             "animation": tables::animation(),
         },
         "$defs": {

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::kinds::{described, number, patterns, reference, size, table, text, vector};
-use crate::spec::NumberRange;
+use crate::spec::{ImageSpec, NumberRange};
 
 const NONE: Value = Value::Null;
 
@@ -43,7 +43,7 @@ pub fn camera() -> Value {
 }
 
 pub fn image() -> Value {
-    let side = json!({ "type": "integer", "minimum": 1, "maximum": 16384 });
+    let side = json!({ "type": "integer", "minimum": 1, "maximum": ImageSpec::LARGEST_SIDE });
     let size = json!({ "type": "array", "items": side, "minItems": 2, "maxItems": 2 });
     let properties = json!({
         "size": described(size, "Width and height, pixels.", json!([1280, 720])),

@@ -14,6 +14,7 @@ use std::path::PathBuf;
 pub use form::MeshForm;
 pub use solid::MeshSolid;
 use surface::Surface;
+pub(crate) use surface::count_triangles;
 pub use tree::{MeshNode, TriangleTree};
 
 use crate::spec::{Convex, MeshShape};

@@ -1,6 +1,7 @@
 //! From pairs of triangles that coincide to planes and ranks.
 
 use glam::DVec3;
+use petgraph::unionfind::UnionFind;
 
 use super::face::Face;
 use super::{Coincident, Part, Plane, Shared};
@@ -14,24 +15,24 @@ const LAST_PLANES: usize = 8;
 
 /// `pairs`: of numbers of triangles, sorted.
 pub fn grouped(parts: &[Part], pairs: Vec<(u32, u32)>) -> Coincident {
-    let mut found = Coincident { parts: vec![Vec::new(); parts.len()], planes: Vec::new() };
+    let mut found = Coincident { parts: vec![Vec::new(); parts.len()], ..Coincident::default() };
     let mut numbers: Vec<u32> = pairs.iter().flat_map(|(low, high)| [*low, *high]).collect();
     numbers.sort_unstable();
     numbers.dedup();
     let place = |number: u32| numbers.partition_point(|known| *known < number);
-    let mut groups = Groups::new(numbers.len());
+    let mut groups = UnionFind::<u32>::new(numbers.len());
     let mut ranks = vec![0u32; numbers.len()];
     // By the lower one: its own rank is known when it is asked for.
     for (low, high) in &pairs {
         let (low, high) = (place(*low), place(*high));
-        groups.join(low, high);
+        groups.union(low as u32, high as u32);
         ranks[high] = ranks[high].max(ranks[low] + 1).min(MOST_RANKS);
     }
-    let mut members: Vec<(usize, usize)> = (0..numbers.len()).map(|member| (groups.root(member), member)).collect();
+    let mut members: Vec<(u32, usize)> = groups.into_labeling().into_iter().zip(0..).collect();
     members.sort_unstable();
     let part_of = |member: usize| parts.partition_point(|part| part.first_triangle <= numbers[member]) - 1;
     for group in members.chunk_by(|a, b| a.0 == b.0) {
-        let face = |(_, member): &(usize, usize)| {
+        let face = |(_, member): &(u32, usize)| {
             let part = &parts[part_of(*member)];
             part.face(numbers[*member] - part.first_triangle, DVec3::ZERO)
         };
@@ -91,28 +92,5 @@ fn mean(faces: &mut dyn Iterator<Item = &Face>) -> Plane {
 impl Face {
     fn lies_in(&self, plane: &Plane, tolerance: f64) -> bool {
         self.corners.iter().all(|p| (plane.normal.dot(*p) - plane.offset).abs() <= tolerance)
-    }
-}
-
-/// Sets that are joined; the lowest member is the root.
-struct Groups(Vec<usize>);
-
-impl Groups {
-    fn new(count: usize) -> Self {
-        Self((0..count).collect())
-    }
-
-    fn root(&mut self, member: usize) -> usize {
-        let mut at = member;
-        while self.0[at] != at {
-            self.0[at] = self.0[self.0[at]];
-            at = self.0[at];
-        }
-        at
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
     }
 }

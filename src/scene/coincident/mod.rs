@@ -2,9 +2,11 @@
 //!
 //! They are given one plane, by which both backends find their depth, and a rank in it. Planes that agree are found by
 //! hashing them with room for rounding, and what overlaps among them by a hierarchy where there are many; so a scene
-//! without such triangles pays for a pass over its triangles and a sort, once a pose.
+//! without such triangles pays for a pass over its triangles and a sort, once a pose. Triangles, pairs and what is
+//! kept at once are bounded; where that leaves something out the plan says so.
 
 mod candidates;
+mod cells;
 mod face;
 mod group;
 
@@ -49,12 +51,15 @@ pub struct Coincident {
     /// Of each part, by rising triangle.
     pub parts: Vec<Vec<Shared>>,
     pub planes: Vec<Plane>,
+    /// There are more triangles, or more of them lie over each other, than are looked at.
+    pub is_partial: bool,
 }
 
 impl Coincident {
     /// `parts`: by rising first triangle.
     pub fn new(parts: &[Part]) -> Self {
-        group::grouped(parts, candidates::pairs(parts))
+        let (pairs, is_whole) = candidates::pairs(parts);
+        Self { is_partial: !is_whole, ..group::grouped(parts, pairs) }
     }
 
     pub fn is_empty(&self) -> bool {

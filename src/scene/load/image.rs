@@ -23,25 +23,27 @@ const PIXEL_BYTES: u64 = 16;
 /// Bytes of what an image holds beside its pixels, as a colour profile.
 const BESIDE_PIXELS: u64 = 64 << 20;
 
-/// All images of the file, of which only those in `used` (ascending) are decoded, and those of them that could not be.
+/// All images of the file, of which only those in `used` (ascending) are decoded; and of each whether it could not be.
 pub fn load(
     file: &File<'_>,
     used: &[usize],
     fetch: &mut Fetch<'_>,
     budget: &mut Budget,
     warnings: &mut Warnings,
-) -> Result<(Vec<Image>, Vec<usize>), InputError> {
+) -> Result<(Vec<Image>, Vec<bool>), InputError> {
     let mut encoded = Vec::with_capacity(used.len());
-    let mut unread = Vec::new();
+    let mut is_unread = vec![false; file.root().images.len()];
     for &index in used {
         let place = label(file, index);
+        let before = *budget;
         match bytes(file, index, &place, fetch, budget)
             .and_then(|bytes| take(bytes, &format!("{}: {place}", file.name), budget))
         {
             Ok(bytes) => encoded.push((index, bytes)),
             Err(Fault::Missing(error)) => {
+                *budget = before;
                 warnings.add(place, without(&error));
-                unread.push(index);
+                is_unread[index] = true;
             }
             Err(refused) => return Err(refused.into()),
         }
@@ -52,16 +54,17 @@ pub fn load(
     let name = |i: &json::Image| i.name.clone().or(file_name(i)).unwrap_or_default();
     let blank = |i: &json::Image| Image { name: name(i), width: 1, height: 1, pixels: vec![[255; 4]] };
     let mut images: Vec<Image> = file.root().images.iter().map(blank).collect();
-    for ((index, _), result) in encoded.iter().zip(decoded) {
+    for ((index, bytes), result) in encoded.iter().zip(decoded) {
         match result {
             Ok(image) => images[*index] = Image { name: std::mem::take(&mut images[*index].name), ..image },
             Err(error) => {
+                budget.give_back(size(bytes).map_or(0, |(width, height)| width * height * PIXEL_BYTES));
                 warnings.add(label(file, *index), without(&undecodable(&error)));
-                unread.push(*index);
+                is_unread[*index] = true;
             }
         }
     }
-    Ok((images, unread))
+    Ok((images, is_unread))
 }
 
 fn label(file: &File<'_>, index: usize) -> String {
@@ -99,12 +102,16 @@ fn bytes<'f>(
 
 /// Takes the memory of an image before it is decoded.
 fn take<'a>(bytes: Cow<'a, [u8]>, place: &str, budget: &mut Budget) -> Result<Cow<'a, [u8]>, Fault> {
-    let (width, height) =
-        reader(&bytes).and_then(|r| r.into_dimensions()).map_err(|e| Fault::Missing(undecodable(&e)))?;
-    let pixels = u64::from(width) * u64::from(height);
+    let (width, height) = size(&bytes).map_err(|e| Fault::Missing(undecodable(&e)))?;
     let what = || format!("{place}, with {width} x {height} pixels");
-    budget.take(pixels * PIXEL_BYTES, what).map_err(Fault::Refused)?;
+    budget.take(width * height * PIXEL_BYTES, what).map_err(Fault::Refused)?;
     Ok(bytes)
+}
+
+/// Width and height, as an image claims them.
+fn size(bytes: &[u8]) -> image::ImageResult<(u64, u64)> {
+    let (width, height) = reader(bytes)?.into_dimensions()?;
+    Ok((width.into(), height.into()))
 }
 
 /// The bytes tell the format; names and MIME types in files are often wrong.
@@ -118,15 +125,15 @@ fn reader(bytes: &[u8]) -> image::ImageResult<ImageReader<Cursor<&[u8]>>> {
 }
 
 fn decode(bytes: &[u8]) -> image::ImageResult<Image> {
-    let (width, height) = reader(bytes)?.into_dimensions()?;
+    let (width, height) = size(bytes)?;
     let mut reader = reader(bytes)?;
     // The budget has allowed these pixels; the crate's own limit is lower.
     let mut limits = image::Limits::default();
-    limits.max_alloc = Some(u64::from(width) * u64::from(height) * PIXEL_BYTES + BESIDE_PIXELS);
+    limits.max_alloc = Some(width * height * PIXEL_BYTES + BESIDE_PIXELS);
     reader.limits(limits);
     let rgba = reader.decode()?.into_rgba8();
     let pixels = rgba.pixels().map(|pixel| pixel.0).collect();
-    Ok(Image { name: String::new(), width, height, pixels })
+    Ok(Image { name: String::new(), width: rgba.width(), height: rgba.height(), pixels })
 }
 
 impl Image {

@@ -16,7 +16,7 @@ mod light;
 mod losses;
 mod material;
 mod nodes;
-mod open;
+pub(super) mod open;
 mod texture;
 pub(super) mod uri;
 mod warnings;
@@ -140,10 +140,10 @@ impl Model {
             closure_cache: ClosureCache::default(),
         };
         model.pose(None)?;
-        let (images, unread) = image::load(&file, &model.used_images(), fetch, budget, &mut warnings)?;
+        let (images, is_unread) = image::load(&file, &model.used_images(), fetch, budget, &mut warnings)?;
         model.images = images;
         for texture in &mut model.textures {
-            texture.image = texture.image.filter(|image| !unread.contains(image));
+            texture.image = texture.image.filter(|image| !is_unread[*image]);
         }
         if let Some(nothing) = nothing_to_see(&model) {
             warnings.say(nothing);

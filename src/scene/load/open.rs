@@ -51,7 +51,8 @@ pub fn read_file(path: &Path, budget: &mut Budget) -> Result<Vec<u8>, InputError
     Ok(bytes)
 }
 
-fn read(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
+/// The same, of at most so many bytes.
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
     let failed = |e: std::io::Error| Fault::Missing(InputError::new(format!("cannot read {}: {e}", path.display())));
     let meta = std::fs::metadata(path).map_err(failed)?;
     if !meta.is_file() {

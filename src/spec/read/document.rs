@@ -1,10 +1,12 @@
 //! The whole file: from bytes to [`Spec`].
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use toml::de::DeTable;
 
-use super::item::{File, Item};
+use super::item::{self, Item};
 use super::table::Table;
 use super::{camera, image, keys, later, lens, light, links, overlap, scene, set};
 use crate::InputError;
@@ -21,28 +23,37 @@ impl Spec {
     /// The same with settings, see [`Spec::parse_with`].
     pub fn load_with(path: &Path, settings: &[String]) -> Result<Spec, InputError> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| {
-            InputError::new(format!("cannot read the spec file {name}: {error}")).help("check the path")
-        })?;
-        Self::from_bytes(bytes, &name, path.parent().unwrap_or(Path::new("")), settings)
+        let failed =
+            |error| InputError::new(format!("cannot read the spec file {name}: {error}")).help("check the path");
+        let bytes = File::open(path).and_then(read_bounded).map_err(failed)?;
+        Self::from_bytes(&bytes, &name, path.parent().unwrap_or(Path::new("")), settings)
+    }
+
+    /// Reads a spec from a pipe, no more of it than a spec may have.
+    pub fn read(pipe: impl Read, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
+        let failed = |error| InputError::new(format!("cannot read the spec from {name}: {error}"));
+        Self::from_bytes(&read_bounded(pipe).map_err(failed)?, name, folder, settings)
     }
 
     /// Reads a spec as it came from a file or a pipe. `name` stands for it in messages; relative paths start at
     /// `folder`; settings as in [`Spec::parse_with`].
-    pub fn from_bytes(bytes: Vec<u8>, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
-        let kind = FileKind::of(&bytes);
+    pub fn from_bytes(bytes: &[u8], name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
+        let kind = FileKind::of(bytes);
         if kind.is_model() {
             let message = format!("{name} is {}, and a lens spec is expected", kind.name);
             return Err(
                 InputError::new(message).help(format!("`lenspeel init {name} -o SPEC.toml` writes a spec for it"))
             );
         }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
+        if bytes.len() as u64 > MAX_SPEC_BYTES {
+            return Err(too_large(name));
+        }
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let at = error.valid_up_to();
             InputError::new(format!("the spec file {name} is not text: byte {at} is not UTF-8"))
                 .help("a spec is a TOML file saved as UTF-8")
         })?;
-        Self::parse_with(&text, name, folder, settings)
+        Self::parse_with(text, name, folder, settings)
     }
 
     /// Reads a spec from its text. `name` stands for the file in messages; relative paths start at `folder`.
@@ -54,10 +65,8 @@ impl Spec {
     /// that name) and a TOML value, and holds as if the file said so.
     pub fn parse_with(text: &str, name: &str, folder: &Path, settings: &[String]) -> Result<Spec, InputError> {
         let source = Source::with_settings(name, text, settings);
-        let size = source.text.len();
-        if size as u64 > MAX_SPEC_BYTES {
-            let message = format!("the spec {name} has {size} bytes, and at most {MAX_SPEC_BYTES} can be");
-            return Err(InputError::new(message).help("long lists of points belong into a model: see the shape `mesh`"));
+        if source.text.len() as u64 > MAX_SPEC_BYTES {
+            return Err(too_large(name));
         }
         let mut parts = source.parts();
         let of_file = parts.next().unwrap_or_default();
@@ -65,7 +74,7 @@ impl Spec {
         for part in parts {
             set::apply(document.get_mut(), &source, part)?;
         }
-        let file = File::new(&source, folder);
+        let file = item::File::new(&source, folder);
         let table = Table::of_map(&file, "a spec", document.get_ref(), document.span(), keys::DOCUMENT);
         let spec = read(&table, &source);
         let mut faults = file.into_faults();
@@ -81,6 +90,18 @@ impl Spec {
             }
         }
     }
+}
+
+/// Up to one byte more than a spec may have.
+fn read_bounded(file: impl Read) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.take(MAX_SPEC_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn too_large(name: &str) -> InputError {
+    InputError::new(format!("the spec {name} has more than {MAX_SPEC_BYTES} bytes"))
+        .help("long lists of points belong into a model: see the shape `mesh`")
 }
 
 fn not_toml(source: &Source, error: &toml::de::Error) -> InputError {
@@ -143,4 +164,19 @@ fn track(item: &Item) -> Result<(), InputError> {
         time.number(NumberRange::NOT_NEGATIVE)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_never_ends_is_refused() {
+        let error = Spec::read(std::io::repeat(b'#'), "<stdin>", Path::new(""), &[]).expect_err("it has no end");
+        assert!(error.message.contains("more than 16777216 bytes"), "{error}");
+        // Cut in the middle of a letter, it is text all the same.
+        let letters = "é".as_bytes().iter().copied().cycle().take(1 + MAX_SPEC_BYTES as usize).collect::<Vec<u8>>();
+        let error = Spec::from_bytes(&letters, "a test", Path::new(""), &[]).expect_err("it is too long");
+        assert!(error.message.contains("more than 16777216 bytes"), "{error}");
+    }
 }

@@ -107,7 +107,7 @@ impl<'a> Params<'a> {
         }
         for param in row.params {
             let value = match given.iter().find(|(key, ..)| *key == param.name) {
-                Some((_, _, value)) => Some(params.given(param, &Item::new(item.file, param.name, value))?),
+                Some((_, _, value)) => Some(read(param.kind, &Item::new(item.file, param.name, value))?),
                 None => params.default(param)?,
             };
             params.values.push((param.name, value));
@@ -121,10 +121,6 @@ impl<'a> Params<'a> {
             [] => error.help("it has no parameters"),
             params => error.help(suggest::help(key, params.iter().map(|param| param.name))),
         }
-    }
-
-    fn given(&self, param: &Param, item: &Item) -> Result<Value, InputError> {
-        read(param.kind, item)
     }
 
     fn default(&self, param: &Param) -> Result<Option<Value>, InputError> {

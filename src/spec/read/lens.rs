@@ -1,5 +1,7 @@
 //! One `[[lens]]`.
 
+use std::collections::HashSet;
+
 use toml::de::DeValue;
 
 use super::item::Item;
@@ -46,11 +48,7 @@ pub fn is_name_char(c: char) -> bool {
 
 fn name(item: &Item) -> Result<At<String>, InputError> {
     let text = item.text()?;
-    if text.len() > MAX_NAME {
-        let message =
-            format!("a lens name has at most {MAX_NAME} characters, and this one has {}", text.chars().count());
-        return Err(item.error(message).help("give it a shorter name"));
-    }
+    bound_name("a lens name", text).map_err(|message| item.error(message).help("give it a shorter name"))?;
     match text.chars().find(|c| !is_name_char(*c)) {
         None => Ok(item.at(text.to_owned())),
         Some(c) => Err(item
@@ -59,9 +57,21 @@ fn name(item: &Item) -> Result<At<String>, InputError> {
     }
 }
 
+/// Names end up in messages, and are held against patterns.
+pub fn bound_name(what: &str, name: &str) -> Result<(), String> {
+    match name.chars().count() {
+        count if count > MAX_NAME => Err(format!("{what} has at most {MAX_NAME} characters, and this one has {count}")),
+        _ => Ok(()),
+    }
+}
+
 fn patterns(table: &Table, key: &'static str) -> Vec<At<Pattern>> {
     let wanted = "a list of lens names or patterns, such as [\"probe\", \"cut-*\"]";
-    table.read(key, |item| item.each(wanted, Item::pattern)).unwrap_or_default()
+    let mut patterns = table.read(key, |item| item.each(wanted, Item::pattern)).unwrap_or_default();
+    // What is said twice is said once.
+    let mut known = HashSet::new();
+    patterns.retain(|pattern| known.insert(pattern.value.clone()));
+    patterns
 }
 
 fn overlap(item: &Item) -> Result<OverlapMode, InputError> {

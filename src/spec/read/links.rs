@@ -1,18 +1,20 @@
 //! What only the whole file can tell: names that must be unique, and names that must exist.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::suggest;
 use crate::InputError;
 use crate::error::Faults;
-use crate::limits::{MAX_LENSES, MAX_PARTS, MAX_PLANES, MAX_RULES, MAX_WRITTEN_LENSES};
-use crate::spec::{At, Condition, Filter, LensSpec, Names, Pattern, Shape, ShowWhat, Source, Spec};
+use crate::limits::{MAX_COMPARISONS, MAX_LENSES, MAX_PARTS, MAX_PLANES, MAX_RULES, MAX_WRITTEN_LENSES};
+use crate::spec::{At, Condition, Filter, LensSpec, Names, NamesSize, Pattern, Shape, ShowWhat, Source, Spec};
 
 pub fn check(spec: &Spec) -> Result<(), InputError> {
     let names = Names::new(spec.lenses.iter().map(|lens| lens.name.value.as_str()));
-    let links = Links { source: &spec.source, spec, names };
+    let alternates = spec.scene.alternates.iter().map(|(name, _)| name.as_str()).collect();
+    let links = Links { source: &spec.source, spec, names, alternates };
     // Of too many nothing else is looked at.
     links.count_written()?;
+    links.count_comparisons()?;
     let mut faults = Faults::default();
     for counted in [links.count(), links.count_rules(), links.count_parts(), links.count_planes()] {
         faults.take(counted);
@@ -31,6 +33,7 @@ struct Links<'a> {
     spec: &'a Spec,
     /// Of all lenses.
     names: Names<'a>,
+    alternates: HashSet<&'a str>,
 }
 
 impl Links<'_> {
@@ -40,6 +43,26 @@ impl Links<'_> {
         let message =
             format!("the file has {count} lenses, and at most {MAX_WRITTEN_LENSES} can be, disabled ones included");
         Err(self.error(&first_too_many.name, message).help("leave out what is never enabled"))
+    }
+
+    /// How often patterns are held against the names of lenses.
+    fn count_comparisons(&self) -> Result<(), InputError> {
+        let names: NamesSize = self.names.iter().collect();
+        let of_lenses = self.spec.lenses.iter().flat_map(|lens| lens.over.iter().chain(&lens.under).chain(&lens.hides));
+        let of_rules = self.spec.overlaps.iter().flat_map(|rule| rule.when.value.patterns());
+        let mut steps = 0u64;
+        for pattern in of_lenses.chain(of_rules) {
+            steps = steps.saturating_add(names.steps([&pattern.value]));
+            if steps > MAX_COMPARISONS {
+                let message = format!(
+                    "patterns with wildcards over the names of {} lenses are too many to compare: \
+                     that takes more than {MAX_COMPARISONS} steps",
+                    names.count
+                );
+                return Err(self.error(pattern, message).help("names without `*` and `?` cost nothing"));
+            }
+        }
+        Ok(())
     }
 
     fn count(&self) -> Result<(), InputError> {
@@ -64,12 +87,11 @@ impl Links<'_> {
         Err(self.error(first_too_many, message).help("a hull or a mesh is one part, however many faces it has"))
     }
 
-    /// All planes of polytopes and corners of flat lenses.
+    /// All planes of polytopes and corners of flat lenses: shapes of disabled lenses are made, too.
     fn count_planes(&self) -> Result<(), InputError> {
-        let enabled = self.spec.lenses.iter().filter(|lens| lens.enabled);
         let mut count = 0;
         let mut first_too_many = None;
-        for part in enabled.flat_map(|lens| lens.shape.parts()) {
+        for part in self.spec.lenses.iter().flat_map(|lens| lens.shape.parts()) {
             count += match &part.value {
                 Shape::Polytope { planes } => planes.len(),
                 Shape::Flat { corners, .. } => corners.len(),
@@ -79,7 +101,8 @@ impl Links<'_> {
         }
         let Some(part) = first_too_many else { return Ok(()) };
         let message = format!(
-            "the enabled lenses have {count} planes of polytopes and corners of flat lenses, and at most {MAX_PLANES} can be"
+            "the lenses have {count} planes of polytopes and corners of flat lenses, and at most {MAX_PLANES} can be, \
+             those of disabled lenses included"
         );
         Err(self.error(part, message).help("a `hull` or a `mesh` may have any number of faces"))
     }
@@ -99,14 +122,14 @@ impl Links<'_> {
     fn lens(&self, lens: &LensSpec, faults: &mut Faults) {
         for (key, patterns) in [("over", &lens.over), ("under", &lens.under), ("hides", &lens.hides)] {
             for pattern in patterns {
-                faults.take(self.other_lens(lens, key, pattern));
+                faults.take(self.other_lens(lens, key, pattern, faults.are_few()));
             }
         }
         self.filters(&lens.filters, faults);
     }
 
     /// An edge must lead to a lens other than its own (SEMANTICS 3.1).
-    fn other_lens(&self, lens: &LensSpec, key: &str, pattern: &At<Pattern>) -> Result<(), InputError> {
+    fn other_lens(&self, lens: &LensSpec, key: &str, pattern: &At<Pattern>, suggests: bool) -> Result<(), InputError> {
         let name = &lens.name.value;
         let matches_itself = pattern.value.matches(name);
         // Names are unique, so what matches more than once matches another.
@@ -115,6 +138,7 @@ impl Links<'_> {
         }
         if !matches_itself {
             let others = self.names.iter().filter(|other| other != name);
+            let others = suggests.then_some(others);
             return Err(self.no_match(&format!("`{key}` of lens `{name}` names"), pattern, others));
         }
         let message = format!("`{key}` of lens `{name}` names no lens but itself: \"{}\"", pattern.value);
@@ -122,50 +146,43 @@ impl Links<'_> {
     }
 
     fn condition(&self, condition: &Condition, faults: &mut Faults) {
-        match condition {
-            Condition::Lens(pattern) => {
-                if !self.names.any(&pattern.value) {
-                    faults.note(self.no_match("`when` names", pattern, self.names.iter()));
-                }
-            }
-            Condition::Not(inner) => self.condition(inner, faults),
-            Condition::And(left, right) | Condition::Or(left, right) => {
-                self.condition(left, faults);
-                self.condition(right, faults);
-            }
+        for pattern in condition.patterns().into_iter().filter(|pattern| !self.names.any(&pattern.value)) {
+            let names = faults.are_few().then(|| self.names.iter());
+            faults.note(self.no_match("`when` names", pattern, names));
         }
     }
 
     fn filters(&self, filters: &[At<Filter>], faults: &mut Faults) {
         for filter in filters {
             if let Filter::Show(ShowWhat::Alternate { name, .. }) = &filter.value {
-                faults.take(self.alternate(name));
+                faults.take(self.alternate(name, faults.are_few()));
             }
         }
     }
 
-    fn alternate(&self, wanted: &At<String>) -> Result<(), InputError> {
-        let names = self.spec.scene.alternates.iter().map(|(name, _)| name.as_str());
-        if names.clone().any(|name| name == wanted.value) {
+    fn alternate(&self, wanted: &At<String>, suggests: bool) -> Result<(), InputError> {
+        if self.alternates.contains(wanted.value.as_str()) {
             return Ok(());
         }
-        let help = match names.clone().next() {
-            Some(_) => suggest::help(&wanted.value, names),
-            None => format!("add it: [scene.alternates] and below it {} = \"file.glb\"", wanted.value),
+        let help = match self.alternates.is_empty() || !suggests {
+            true => format!("add it: [scene.alternates] and below it {} = \"file.glb\"", wanted.value),
+            false => suggest::help(&wanted.value, self.spec.scene.alternates.iter().map(|(name, _)| name.as_str())),
         };
         Err(self.error(wanted, format!("there is no alternate `{}`", wanted.value)).help(help))
     }
 
+    /// `names`: those that may have been meant; `None` where nobody would read them.
     fn no_match<'n>(
         &self,
         what: &str,
         pattern: &At<Pattern>,
-        names: impl Iterator<Item = &'n str> + Clone,
+        names: Option<impl Iterator<Item = &'n str> + Clone>,
     ) -> InputError {
         let kind = if pattern.value.has_wildcard() { "no lens matches it" } else { "there is none" };
-        let help = match names.clone().next() {
-            Some(_) => suggest::help(&pattern.value.0, names),
-            None => "there is no other lens".to_owned(),
+        let help = match names {
+            None => "name a lens of this file".to_owned(),
+            Some(names) if names.clone().next().is_none() => "there is no other lens".to_owned(),
+            Some(names) => suggest::help(&pattern.value.0, names),
         };
         self.error(pattern, format!("{what} \"{}\", but {kind}", pattern.value)).help(help)
     }

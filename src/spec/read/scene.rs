@@ -6,6 +6,7 @@ use toml::de::DeValue;
 
 use super::item::Item;
 use super::keys;
+use super::lens::bound_name;
 use super::table::{Table, entries};
 use crate::InputError;
 use crate::spec::{At, Backfaces, NumberRange, SceneChoice, SceneSpec};
@@ -43,8 +44,10 @@ fn alternates(item: &Item) -> Result<Vec<(String, At<PathBuf>)>, InputError> {
     let DeValue::Table(map) = item.value else {
         return Err(item.wrong_type("a table of names and model files"));
     };
-    let read = |(name, _, value)| -> Result<_, InputError> {
+    let read = |(name, span, value)| -> Result<_, InputError> {
         let name: &str = name;
+        bound_name("the name of an alternate", name)
+            .map_err(|message| InputError::at(item.file.source, span, message).help("give it a shorter name"))?;
         Ok((name.to_owned(), Item::new(item.file, name, value).path()?))
     };
     entries(map).into_iter().map(read).collect()

@@ -4,6 +4,8 @@
 const LONGEST: usize = 64;
 /// The most names that are compared.
 const MOST_COMPARED: usize = 4096;
+/// For so many things that are not known a name is looked for that may have been meant.
+pub const MOST_SUGGESTED: usize = 20;
 /// The most names that a message lists.
 const MOST_LISTED: usize = 64;
 
@@ -16,7 +18,7 @@ pub fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> O
     let lower = written.to_lowercase();
     known
         .into_iter()
-        .filter(|name| is_short(name))
+        .filter(|name| !name.is_empty() && is_short(name))
         .take(MOST_COMPARED)
         .map(|name| (strsim::damerau_levenshtein(&lower, &name.to_lowercase()), name))
         .filter(|(distance, name)| *distance <= 1 + name.chars().count().max(lower.chars().count()) / 4)
