@@ -34,8 +34,19 @@ pub fn run(path: &Path, output: Option<&Path>, options: &OpenOptions, messages: 
             .help("give the file, or the folder that it is in, another name")
     })?;
     let text = init_text(&model, name);
-    // Numbers of a spec are as large as what is drawn.
-    Spec::parse(&text, "the starter spec", Path::new(""))?;
+    // What is drawn may be larger or smaller than the numbers of a spec reach.
+    Spec::parse(&text, "the starter spec", Path::new("")).map_err(|error| {
+        let size = model.bounds().size();
+        let message = format!(
+            "{}: no starter spec fits the model, whose bounds are {:.1e} x {:.1e} x {:.1e}: {}",
+            path.display(),
+            size.x,
+            size.y,
+            size.z,
+            error.message
+        );
+        InputError::new(message).help("scale the model; `lenspeel info` tells its bounds")
+    })?;
     outputs::write(output, text.as_bytes())?;
     if into_file {
         messages.note(format_args!("wrote {}", output.display()));

@@ -38,11 +38,15 @@ fn paths_hold_where_the_spec_is_written() {
 #[test]
 fn a_model_that_no_spec_fits_is_to_blame() {
     let folder = Folder::new("init-bounds");
-    let model = triangle(&folder, "huge.gltf", 1e30);
-    for arguments in [vec!["init", &model], vec!["init", &model, "-o", &folder.file("a.toml")]] {
-        let report = call(&arguments).refused();
-        assert!(report.contains("huge.gltf: node 0 reaches 1.0e30 units from the origin"), "{report}");
-        assert!(!report.contains("│"), "no line of a spec is shown: {report}");
+    for (size, told) in
+        [(1e30, "no starter spec fits the model"), (1e37, "node 0 reaches 1.0e37 units from the origin")]
+    {
+        let model = triangle(&folder, "huge.gltf", size);
+        for arguments in [vec!["init", &model], vec!["init", &model, "-o", &folder.file("a.toml")]] {
+            let report = call(&arguments).refused();
+            assert!(report.contains(&format!("huge.gltf: {told}")), "{report}");
+            assert!(!report.contains("│"), "no line of a spec is shown: {report}");
+        }
     }
     assert_eq!(folder.names(), ["huge.gltf", "t.bin"]);
 }

@@ -70,11 +70,11 @@ fn every_command_that_takes_a_spec_takes_settings() {
 
 #[test]
 fn reasons_name_the_setting() {
-    let out = set("explain", &["lens.a.over=['b']", "lens.c.name=\"d\""], &["--size", "8x6"]).good();
-    assert!(out.contains("`over` in --set lens.a.over=['b'] puts b below a"), "{out}");
+    let out = set("explain", &["lens.c.over=['b']", "lens.c.name=\"d\""], &["--size", "8x6"]).good();
+    assert!(out.contains("`over` in --set lens.c.over=['b'] puts b below d"), "{out}");
     assert!(out.contains("d (--set lens.c.name=\"d\")"), "{out}");
-    let dot = set("explain", &["lens.a.over=[\"b\"]"], &["--size", "8x6", "--format", "dot"]).good();
-    assert!(dot.contains("[label = \"over, --set lens.a.over=['b']\"]"), "{dot}");
+    let dot = set("explain", &["lens.c.over=[\"b\"]"], &["--size", "8x6", "--format", "dot"]).good();
+    assert!(dot.contains("[label = \"over, --set lens.c.over=['b']\"]"), "{dot}");
 }
 
 #[test]
