@@ -71,7 +71,7 @@ impl Merging {
     /// Of the distance from the eye.
     pub const SHARE: f64 = 1e-5;
     /// What single precision resolves after the arithmetic of a boundary: some units in the last place.
-    pub const RESOLVED: f64 = 4e-6;
+    pub const RESOLVED: f64 = 1e-6;
 
     /// How far apart boundaries at a depth may be to be one.
     pub fn at(&self, depth: f64) -> f64 {
@@ -145,10 +145,10 @@ impl View {
         !self.is_perspective() && far - near > WIDE * self.half_diagonal()
     }
 
-    /// Whether a triangle, its corners relative to the origin, is very large for how far it is from there or, nearer than
+    /// Whether a triangle, or what holds it, its corners relative to the origin, is very large for how far it is from there or, nearer than
     /// that, from what is to be seen: seen from nearby, single precision of its far corners is too coarse to say where it is.
-    pub fn is_large(&self, corners: &[DVec3; 3]) -> bool {
-        let bounds = Aabb::from_points(*corners);
+    pub fn is_large(&self, corners: &[DVec3]) -> bool {
+        let bounds = Aabb::from_points(corners.iter().copied());
         let distance = DVec3::ZERO.clamp(bounds.min, bounds.max).length();
         bounds.size().max_element() > (LARGE * distance).max(self.anchor.unit)
     }

@@ -33,11 +33,11 @@ const LITTLE: Needs = Needs {
     filters: 0,
     quantities: false,
     hidden_lines: false,
-    large: false,
     wide: false,
     channels: 0,
     screen: false,
-    in_planes: false,
+    planes: false,
+    accounts: false,
 };
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const TWO_WORDS_OF_LAYERS: Needs = Needs { layers: true, ..TWO_WORDS };
@@ -63,11 +63,11 @@ const MOST: Needs = Needs {
     filters: u64::MAX,
     quantities: true,
     hidden_lines: true,
-    large: true,
     wide: true,
     channels: 3,
     screen: true,
-    in_planes: true,
+    planes: true,
+    accounts: false,
 };
 /// Twin of the limit that `caps.rs` asks for.
 const STORAGE_BUFFERS: usize = 21;
@@ -277,7 +277,6 @@ fn records_have_the_same_layout_in_rust_and_in_wgsl() {
             group,
             roles,
             lids,
-            in_plane,
             across,
         ]
     );

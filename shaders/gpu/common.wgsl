@@ -5,12 +5,11 @@
 // (`TAKEN_AWAY`), some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`,
 // `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`) or closes what it cuts (`CAPS`), is soft (`SOFT`), has a
 // surface (`GLASS`) or one with a line where it meets the scene (`CONTACT`), something may be seen through something else
-// (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex
-// (`VERTEX_COLORS`), some filter acts in a stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity
-// (`QUANTITIES`), has wires that nearer surfaces hide (`HIDDEN_LINES`), or
-// some triangle is very large for how near it is (`LARGE`) or lies in a plane with others (`IN_PLANES`), or the scene reaches
-// very far beyond what is seen (`WIDE`). `CHANNELS`: how many numbers at vertices filters
-// read, at least 1.
+// (`TRANSLUCENT`), something has a texture (`TEXTURES`) or a colour for each vertex (`VERTEX_COLORS`), some filter acts in a
+// stage (`SURFACE_FILTERS`, `COLOR_FILTERS`, `COVERAGE_FILTERS`), reads a quantity (`QUANTITIES`) or has wires that nearer
+// surfaces hide (`HIDDEN_LINES`), some triangle has its depth from its plane (`PLANES`), or the scene reaches very far beyond
+// what is seen (`WIDE`). `CHANNELS`: how many numbers at vertices filters read, at least 1. `ACCOUNTS`: what is asked for is
+// where things are, and not their colours.
 // Positions are relative to the view's origin, along the world's axes, and depths are counted from its anchor (see
 // `view.rs`), unless a name says otherwise.
 
@@ -22,7 +21,7 @@ const TILE: u32 = 16u;
 const DISPATCH_WIDTH: u32 = 1024u;
 // Of the distance from a perspective camera's eye, and what single precision resolves: see `merge_at`.
 const MERGE: f32 = 1e-5;
-const RESOLVED: f32 = 4e-6;
+const RESOLVED: f32 = 1e-6;
 
 // How far apart boundaries at a depth may be to be one: twin of `Merging` in `view.rs`.
 fn merge_at(depth: f32) -> f32 {
@@ -151,7 +150,7 @@ struct Item {
     ratio: f32,
     // How far versions of it may lie from each other.
     spread: f32,
-    // In `lens_data`, or NONE: the planes of its triangles, by their numbers in its primitive, where some are very large.
+    // In `lens_words`, or NONE: which of its triangles have their depths from their planes; see `planes.wgsl`.
     planes: u32,
     // Of one that may be cut: the first of those that enclose something only together with it.
     group: u32,
@@ -159,8 +158,6 @@ struct Item {
     // LID_WORDS each.
     roles: u32,
     lids: u32,
-    // What of its triangles lies in planes with others, in `lens_words`, or NONE: see `coincident.wgsl`.
-    in_plane: u32,
     // What lies across the edges of its triangles, in `numbers`, or NONE.
     across: u32,
     masks: array<u32, 6u * WORDS>,

@@ -53,7 +53,7 @@ fn crossing(in: CutVarying, @builtin(front_facing) is_front: bool) {
     }
     let role = select(in.role, role_of(in.item, in.triangle), in.role == NONE);
     var depth = in.depth;
-    if in.role == NONE && has_planes(in.item) {
+    if PLANES && in.role == NONE && plane_at(in.item, in.triangle) != NONE {
         depth = meeting(in.item, in.triangle, pixel_ray(pixel)).hit.depth;
     }
     if role / 2u != SLOT_OPEN {

@@ -123,7 +123,7 @@ fn met_at(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Met {
 
 fn classified(pick: Pick, tile: TileRecord, pixel: vec2u, ray: PixelRay) -> Fragment {
     // Without filters that act on what is seen nobody asks.
-    if !LENSES || !(SURFACE_FILTERS || COLOR_FILTERS || COVERAGE_FILTERS || SCREEN) {
+    if !LENSES || !(SURFACE_FILTERS || COLOR_FILTERS || COVERAGE_FILTERS || SCREEN || ACCOUNTS) {
         return Fragment(pick.item, pick.triangle, pick.depth, Set(), Set());
     }
     let verdict = walk(pick.item, ray, pick.depth, set_at(tile, pixel, pick.depth));

@@ -77,28 +77,17 @@ struct Meeting {
 
 fn meeting(item: u32, triangle: u32, ray: PixelRay) -> Meeting {
     let t = fetch_triangle(item, triangle);
-    var hit = surface_hit(item, triangle, ray, t);
-    let in_plane = in_plane_at(item, triangle);
-    if IN_PLANES && in_plane != NONE {
-        hit.depth = in_plane_depth(in_plane, ray, hit.depth);
-    }
-    return Meeting(t, hit);
-}
-
-// Whether depths on an item are those of its triangles' planes: corners that are far off say too little of what is near.
-fn has_planes(item: u32) -> bool {
-    return LARGE && items[item].planes != NONE;
+    return Meeting(t, surface_hit(plane_at(item, triangle), ray, t));
 }
 
 // The hit of a ray with a triangle that it is known to meet. Seen nearly edge on, the depth stays within the corners'.
-fn surface_hit(item: u32, triangle: u32, ray: PixelRay, t: Triangle) -> TriangleHit {
+// `plane`: see `plane_at`.
+fn surface_hit(plane: u32, ray: PixelRay, t: Triangle) -> TriangleHit {
     var hit = triangle_hit(ray.origin, ray.direction, t.a, t.b, t.c);
-    if has_planes(item) {
-        let plane = lens_data[items[item].planes + numbers[items[item].first_number + triangle]];
-        let rate = dot(plane.xyz, ray.direction);
-        hit.depth = (plane.w - dot(plane.xyz, ray.origin)) / select(rate, 1e-30, rate == 0.0);
-    }
     let depths = vec3f(dot(t.a, frame.forward.xyz), dot(t.b, frame.forward.xyz), dot(t.c, frame.forward.xyz));
     hit.depth = clamp(hit.depth, min(depths.x, min(depths.y, depths.z)), max(depths.x, max(depths.y, depths.z)));
+    if PLANES && plane != NONE {
+        hit.depth = plane_depth(plane, ray, hit.depth);
+    }
     return hit;
 }

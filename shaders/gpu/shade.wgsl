@@ -273,17 +273,17 @@ fn shade(fragment: Fragment, at: Meeting, ray: PixelRay, passed: Set) -> ShadedF
         surface = surface_of_material(f, at.triangle, at.hit.weights, ray);
     }
     let normal = surface.normal;
-    if !LENSES {
-        return ShadedFragment(emitted(surface, lit(surface)), surface_opacity(surface), 1.0, surface.normal);
-    }
-    if SURFACE_FILTERS {
+    if LENSES && SURFACE_FILTERS {
         surface = surface_stage(surface, f, at, ray);
     }
-    var shaded = Shaded(emitted(surface, lit(surface)), surface_opacity(surface), 1.0);
-    if COLOR_FILTERS {
+    var shaded = Shaded(vec3f(0.0), surface_opacity(surface), 1.0);
+    if !ACCOUNTS {
+        shaded.color = emitted(surface, lit(surface));
+    }
+    if LENSES && COLOR_FILTERS {
         shaded.color = color_stage(shaded.color, f, surface);
     }
-    if COVERAGE_FILTERS {
+    if LENSES && COVERAGE_FILTERS {
         shaded = coverage_stage(shaded, f, at, ray, surface.position, passed);
     }
     return ShadedFragment(shaded.color, shaded.opacity, shaded.coverage, normal);

@@ -41,10 +41,7 @@ fn plain(in: Varying) -> @location(0) vec2u {
 @fragment
 fn fused(in: Varying) -> Kept {
     let pixel = vec2u(in.position.xy);
-    var depth = in.depth;
-    if has_planes(in.item) {
-        depth = meeting(in.item, in.triangle, pixel_ray(pixel)).hit.depth;
-    }
+    let depth = in.depth;
     if depth < frame.near || depth > frame.far {
         discard;
     }
@@ -56,7 +53,7 @@ fn fused(in: Varying) -> Kept {
     return kept(at.found, at.z);
 }
 
-// The same of triangles some of which lie over others in one plane.
+// The same of triangles some of which have their depths from their planes.
 @fragment
 fn fused_in_planes(in: Varying) -> KeptAt {
     let pixel = vec2u(in.position.xy);
@@ -76,7 +73,7 @@ fn fused_in_planes(in: Varying) -> KeptAt {
 @fragment
 fn peel(in: Varying) -> Kept {
     let ray = pixel_ray(vec2u(in.position.xy));
-    let depth = surface_hit(in.item, in.triangle, ray, fetch_triangle(in.item, in.triangle)).depth;
+    let depth = surface_hit(NONE, ray, fetch_triangle(in.item, in.triangle)).depth;
     let at = keep_in_layer(in, Place(depth, z_of(in, depth), 0u), ray);
     return kept(at.found, at.z);
 }
@@ -128,15 +125,15 @@ struct Place {
     rank: u32,
 }
 
-// Of a triangle that shares its plane with others, that of the plane.
+// Of a triangle that has its depth from its plane, that.
 fn place_of(in: Varying, ray: PixelRay) -> Place {
-    let in_plane = in_plane_at(in.item, in.triangle);
-    let hit = meeting(in.item, in.triangle, ray).hit;
-    if IN_PLANES && in_plane != NONE {
-        let rank = lens_words[in_plane + 1u];
-        return Place(hit.depth, ranked(drawn_depth(hit.depth), rank), rank);
+    let plane = plane_at(in.item, in.triangle);
+    let depth = surface_hit(plane, ray, fetch_triangle(in.item, in.triangle)).depth;
+    if PLANES && plane != NONE {
+        let rank = lens_words[plane + 1u];
+        return Place(depth, ranked(drawn_depth(depth), rank), rank);
     }
-    return Place(hit.depth, z_of(in, hit.depth), 0u);
+    return Place(depth, z_of(in, depth), 0u);
 }
 
 // What a fragment of the scene leaves, and how near it is drawn.
@@ -147,7 +144,7 @@ struct KeptAt {
 
 // The drawn depth of a fragment.
 fn z_of(in: Varying, depth: f32) -> f32 {
-    if WIDE || has_planes(in.item) {
+    if WIDE {
         return drawn_depth(depth);
     }
     return in.position.z;

@@ -120,7 +120,7 @@ impl Geometry {
         let is_large = |corners: &[DVec3; 3]| view.is_large(&corners.map(|p| p / scale));
         // All of an instance is met in one way: its triangles share edges.
         let large: HashSet<u32> =
-            found.iter().filter(|(_, corners)| is_large(corners)).map(|(triangle, _)| triangle.instance).collect();
+            found.par_iter().filter(|(_, corners)| is_large(corners)).map(|(triangle, _)| triangle.instance).collect();
         let mut exact = Vec::new();
         let place = |(mut triangle, corners): (Triangle, [DVec3; 3])| {
             if large.contains(&triangle.instance) {

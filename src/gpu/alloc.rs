@@ -41,13 +41,14 @@ pub fn filled_buffer(
     Ok(buffer)
 }
 
-/// A texture with four bytes a pixel.
+/// A texture of one level.
 pub fn texture(
     device: &wgpu::Device,
     what: &str,
     descriptor: &wgpu::TextureDescriptor,
 ) -> Result<wgpu::Texture, Error> {
     let wgpu::Extent3d { width, height, depth_or_array_layers } = descriptor.size;
-    let bytes = 4 * u64::from(width) * u64::from(height) * u64::from(depth_or_array_layers);
+    let pixel = descriptor.format.block_copy_size(None).unwrap_or(4);
+    let bytes = u64::from(pixel) * u64::from(width) * u64::from(height) * u64::from(depth_or_array_layers);
     in_scope(device, what, bytes, || device.create_texture(descriptor))
 }

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::Window;
 use super::clusters::Cluster;
+use super::planes::{InPlane, Planes};
 use super::upload::SceneData;
 use crate::lens::PixelRect;
 use crate::plan::{Instance, Item, Lens, LensSet, Plan};
@@ -32,7 +33,7 @@ pub struct Draw {
     pub rect: PixelRect,
     /// All of it is there and opaque, between near and far: it needs no fragment logic.
     pub plain: bool,
-    /// Some of its triangles lie over others in one plane.
+    /// Some of its triangles have their depths from their planes.
     pub in_planes: bool,
 }
 
@@ -62,14 +63,14 @@ enum Fate {
 
 /// The draws of what a window may show, in the order that decides ties.
 ///
-/// `large`: whether each instance has very large triangles, whose depths each fragment finds.
+/// `planes`: what has its depth from its plane, which each fragment finds.
 pub fn draws(
     scene: &Scene,
     plan: &Plan,
     window: &Window,
     uploaded: &SceneData,
     skip: Skip,
-    large: &[bool],
+    planes: &Planes,
 ) -> Vec<Draw> {
     let lenses = Lenses::new(plan);
     let mut order: Vec<usize> = (0..plan.instances.len()).collect();
@@ -80,7 +81,7 @@ pub fn draws(
         let instance = &plan.instances[number];
         let item = &plan.items[instance.item];
         let (range, clusters) = uploaded.primitive(item);
-        let in_planes = clusters_in_planes(plan, instance.item, clusters, uploaded.order(item));
+        let in_planes = clusters_in_planes(planes.of(number), clusters, uploaded.order(item));
         let shown_from_local = shown_from_local(scene, item, instance);
         let altering = plan.altering(item);
         let showing = lenses.showing(item);
@@ -101,7 +102,7 @@ pub fn draws(
                 base_vertex: range.base_vertex as i32,
                 culling: culling(scene, plan, item),
                 rect,
-                plain: fate == Fate::Plain && !in_planes && !large[number] && !plan.view.is_wide(),
+                plain: fate == Fate::Plain && !in_planes && !plan.view.is_wide(),
                 in_planes,
             };
             match draws.last_mut() {
@@ -119,13 +120,14 @@ pub fn draws(
     draws
 }
 
-/// Which clusters of an item have triangles that lie over others in one plane. `order`: the number of each drawn triangle.
-fn clusters_in_planes(plan: &Plan, item: usize, clusters: &[Cluster], order: &[u32]) -> Vec<bool> {
-    if plan.coincident.parts[item].is_empty() {
+/// Which clusters of an instance have triangles that have their depths from their planes. `order`: the number of each drawn
+/// triangle.
+fn clusters_in_planes(planes: &[InPlane], clusters: &[Cluster], order: &[u32]) -> Vec<bool> {
+    if planes.is_empty() {
         return vec![false; clusters.len()];
     }
     let mut is_in_plane = vec![false; order.len()];
-    plan.coincident.parts[item].iter().for_each(|own| is_in_plane[own.triangle as usize] = true);
+    planes.iter().for_each(|own| is_in_plane[own.triangle as usize] = true);
     let own = |cluster: &Cluster| &order[cluster.first as usize..(cluster.first + cluster.count) as usize];
     clusters.iter().map(|cluster| own(cluster).iter().any(|number| is_in_plane[*number as usize])).collect()
 }

@@ -23,7 +23,7 @@ pub fn item_stride(words: u32, channels: u32) -> u64 {
 }
 
 impl ItemData {
-    /// `words`: of a set of lenses; `cuts`, `planes` and `in_planes`: of each instance.
+    /// `words`: of a set of lenses; `cuts` and `planes`: of each instance.
     pub fn new(
         scene: &Scene,
         plan: &Plan,
@@ -31,17 +31,15 @@ impl ItemData {
         words: u32,
         cuts: &[CutWords],
         planes: &[u32],
-        in_planes: &[u32],
     ) -> Self {
         let mut data = Self::default();
-        for (((instance, cut), planes), in_plane) in plan.instances.iter().zip(cuts).zip(planes).zip(in_planes) {
+        for ((instance, cut), planes) in plan.instances.iter().zip(cuts).zip(planes) {
             let item = &plan.items[instance.item];
             let first_step = data.steps.len() as u32;
             data.steps.extend(instance.steps.iter().map(|step| step_record(plan, step)));
             let CutWords { body, caps, group, roles, lids } = *cut;
-            let (planes, in_plane) = (*planes, *in_plane);
             let plain = record(scene, plan, instance, uploaded);
-            let cut = ItemRecord { first_step, body, caps, group, roles, lids, planes, in_plane, ..plain };
+            let cut = ItemRecord { first_step, body, caps, group, roles, lids, planes: *planes, ..plain };
             let end = data.items.len() + item_stride(words, plan.channels.len() as u32) as usize;
             data.items.extend_from_slice(bytemuck::bytes_of(&cut));
             let masks = [item.scope, item.object, item.shown_by, item.removed_by, item.movers, item.simplified_by];
@@ -100,7 +98,6 @@ fn record(scene: &Scene, plan: &Plan, instance: &Instance, uploaded: &SceneData)
         group: NONE,
         roles: NONE,
         lids: NONE,
-        in_plane: NONE,
         across: range.across,
     }
 }

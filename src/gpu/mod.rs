@@ -10,7 +10,6 @@ mod bindings;
 mod caps;
 mod cells;
 mod clusters;
-mod coincident_data;
 mod cost;
 mod cut_data;
 mod draws;

@@ -57,20 +57,21 @@ pub struct Needs {
     pub quantities: bool,
     /// Some filter has wires that nearer surfaces hide.
     pub hidden_lines: bool,
-    /// Some triangle is very large for how near it is.
-    pub large: bool,
     /// The scene reaches very far beyond what is seen: see [`View::is_wide`](crate::view::View::is_wide).
     pub wide: bool,
     /// How many numbers at vertices filters read.
     pub channels: u32,
     /// Some filter works on the finished picture.
     pub screen: bool,
-    /// Some triangles lie over others in one plane.
-    pub in_planes: bool,
+    /// Some triangles have their depths from their planes.
+    pub planes: bool,
+    /// Regions, opacities and normals are asked for instead of colours.
+    pub accounts: bool,
 }
 
 impl Needs {
-    pub fn of(scene: &Scene, plan: &Plan, large: &[bool]) -> Self {
+    /// `planes`: whether some triangles have their depths from their planes.
+    pub fn of(scene: &Scene, plan: &Plan, planes: bool) -> Self {
         let words = |bits: usize| bits.div_ceil(32).max(1) as u32;
         let parts = plan.lenses.iter().map(|lens| lens.volume.parts.len());
         let names = plan.rules.iter().map(|rule| condition(&rule.when).0.len());
@@ -105,11 +106,11 @@ impl Needs {
             filters: plan.ops.iter().fold(0, |all, op| all | filter_bits(op)),
             quantities: plan.ops.iter().any(Op::reads_quantity),
             hidden_lines: plan.ops.iter().any(Op::hides_lines),
-            large: large.contains(&true),
             wide: plan.view.is_wide(),
             channels: plan.channels.len() as u32,
             screen: !plan.screen.is_empty(),
-            in_planes: !plan.coincident.is_empty(),
+            planes,
+            accounts: false,
         }
     }
 
@@ -141,28 +142,16 @@ impl Needs {
         }
     }
 
-    /// The same for accounts and maps, which are not worth a variant for every plan that does not need everything: shaders
-    /// ask the records of lenses and items besides.
+    /// The same for maps and accounts, which tell where things are and not what colours they have.
     pub fn for_accounts(self) -> Self {
+        let [surface, _, coverage] = self.stages;
         Self {
-            forms: [true; 4],
-            movers: true,
-            versions: true,
-            soft: true,
-            in_planes: true,
-            lenses: true,
-            layers: true,
-            taken_away: true,
-            glass: true,
-            contact: true,
-            translucent: true,
-            textures: true,
-            vertex_colors: true,
-            stages: [true; 3],
-            filters: u64::MAX,
+            accounts: true,
+            lights: 0,
+            stages: [surface, false, coverage],
+            glass: false,
+            contact: false,
             screen: false,
-            quantities: true,
-            hidden_lines: true,
             ..self
         }
     }
@@ -193,10 +182,10 @@ impl Needs {
             ("COVERAGE_FILTERS", self.stages[2]),
             ("QUANTITIES", self.quantities),
             ("HIDDEN_LINES", self.hidden_lines),
-            ("LARGE", self.large),
             ("WIDE", self.wide),
             ("SCREEN", self.screen),
-            ("IN_PLANES", self.in_planes),
+            ("PLANES", self.planes),
+            ("ACCOUNTS", self.accounts),
         ];
         let filters = FILTERS.iter().enumerate().map(|(number, filter)| {
             let (name, has) = (filter.name.to_uppercase(), self.filters >> number & 1 != 0);

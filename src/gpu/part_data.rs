@@ -42,10 +42,11 @@ impl AffineRay {
         }
     }
 
-    /// The coefficients of a plane: the middle ray's distance and rate, and what a pixel's steps add.
-    fn plane(&self, plane: &Plane) -> [f32; 4] {
-        let n = plane.normal;
-        [plane.distance(self.origin), n.dot(self.direction), n.dot(self.dx), n.dot(self.dy)].map(|c| c as f32)
+    /// The coefficients of a plane: the middle ray's distance and rate, and what a pixel's steps add; over `length`, that of
+    /// its gradient in the world: faces of two lenses that lie in one plane come out alike, and at one depth.
+    fn plane(&self, plane: &Plane, length: f64) -> [f32; 4] {
+        let n = plane.normal / length;
+        [plane.distance(self.origin) / length, n.dot(self.direction), n.dot(self.dx), n.dot(self.dy)].map(|c| c as f32)
     }
 
     /// How far outside the surfaces of a form its origin is, as squares: of a ball, of the side of a cone or a capsule, and
@@ -159,9 +160,10 @@ impl PartData {
                 self.vectors.extend([[0.0; 4], [0.0, 0.0, 0.0, 1e37]]);
                 continue;
             };
-            self.vectors.push(frame.ray.plane(&plane));
             let gradient = frame.to_world * plane.normal;
-            let offset = (plane.offset - plane.normal.dot(frame.local.translation)) / gradient.length();
+            let length = gradient.length();
+            self.vectors.push(frame.ray.plane(&plane, length));
+            let offset = (plane.offset - plane.normal.dot(frame.local.translation)) / length;
             self.vectors.push(gradient.normalize_or_zero().extend(offset).as_vec4().to_array());
         }
     }

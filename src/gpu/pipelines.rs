@@ -21,7 +21,7 @@ pub enum Program {
     Plain,
     Fused,
     Peel,
-    /// Likewise, with triangles that lie over others in one plane.
+    /// Likewise, with triangles that have their depths from their planes.
     FusedInPlanes,
     PeelInPlanes,
     /// For accounts of one pixel, fragment after fragment.

@@ -6,7 +6,9 @@
 use std::collections::HashMap;
 
 use naga::compact::{KeepUnused, compact};
-use naga::{Block, Constant, Expression, Function, Handle, Literal, Module, Statement, SwitchCase};
+use naga::{
+    Block, Constant, Expression, Function, Handle, Literal, LocalVariable, Module, Statement, SwitchCase, UnaryOperator,
+};
 
 /// The same shader with these of its entry points alone, without branches that constants rule out, and without what only
 /// those use.
@@ -15,8 +17,16 @@ pub fn pruned(mut module: Module, entries: &[&str]) -> Module {
     let constants = known_constants(&module);
     let entries = module.entry_points.iter_mut().map(|entry| &mut entry.function);
     for function in module.functions.iter_mut().map(|(_, function)| function).chain(entries) {
-        let body = std::mem::take(&mut function.body);
-        function.body = pruned_block(body, &|condition| known(function, &constants, condition));
+        // What is ruled out may decide what a variable is, and that rule out more.
+        loop {
+            let known = Known::new(function, &constants);
+            let before = known.variables.len();
+            let pruned = pruned_block(function.body.clone(), &|condition| known.value(condition));
+            function.body = pruned;
+            if Known::new(function, &constants).variables.len() == before {
+                break;
+            }
+        }
         // A name would keep what it names, and the function that it is the result of.
         function.named_expressions.clear();
     }
@@ -32,16 +42,74 @@ fn known_constants(module: &Module) -> HashMap<Handle<Constant>, bool> {
     module.constants.iter().filter_map(|(handle, constant)| Some((handle, value(constant)?))).collect()
 }
 
-/// What a condition is, where that is known. The front end has computed what is made of constants.
-fn known(
-    function: &Function,
-    constants: &HashMap<Handle<Constant>, bool>,
-    condition: Handle<Expression>,
-) -> Option<bool> {
-    match function.expressions[condition] {
-        Expression::Literal(Literal::Bool(value)) => Some(value),
-        Expression::Constant(constant) => constants.get(&constant).copied(),
-        _ => None,
+/// What is known of the truth values of a function.
+struct Known<'a> {
+    function: &'a Function,
+    constants: &'a HashMap<Handle<Constant>, bool>,
+    /// The front end keeps the results of `&&` and `||` in variables without names, which are read after they are written:
+    /// those to which one value alone is written.
+    variables: HashMap<Handle<LocalVariable>, bool>,
+}
+
+impl<'a> Known<'a> {
+    fn new(function: &'a Function, constants: &'a HashMap<Handle<Constant>, bool>) -> Self {
+        let mut known = Self { function, constants, variables: HashMap::new() };
+        // Of one may follow another.
+        loop {
+            let mut written = HashMap::new();
+            known.gather(&function.body, &mut written);
+            let variables: HashMap<_, _> =
+                written.into_iter().filter_map(|(variable, value)| Some((variable, value?))).collect();
+            if variables == known.variables {
+                return known;
+            }
+            known.variables = variables;
+        }
+    }
+
+    /// What is written to variables without names; `None` where that is unknown, or not always the same.
+    fn gather(&self, block: &Block, written: &mut HashMap<Handle<LocalVariable>, Option<bool>>) {
+        for statement in block {
+            match statement {
+                Statement::Store { pointer, value } => {
+                    let Some(variable) = self.variable(*pointer) else { continue };
+                    let value = self.value(*value);
+                    written
+                        .entry(variable)
+                        .and_modify(|known| *known = known.filter(|_| *known == value))
+                        .or_insert(value);
+                }
+                Statement::If { accept, reject, .. } => {
+                    [accept, reject].into_iter().for_each(|own| self.gather(own, written));
+                }
+                Statement::Block(inner) => self.gather(inner, written),
+                Statement::Switch { cases, .. } => cases.iter().for_each(|case| self.gather(&case.body, written)),
+                Statement::Loop { body, continuing, .. } => {
+                    [body, continuing].into_iter().for_each(|own| self.gather(own, written));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn variable(&self, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+        match self.function.expressions[pointer] {
+            Expression::LocalVariable(variable) => {
+                Some(variable).filter(|variable| self.function.local_variables[*variable].name.is_none())
+            }
+            _ => None,
+        }
+    }
+
+    /// What an expression is, where that is known. The front end has computed what is made of constants.
+    fn value(&self, expression: Handle<Expression>) -> Option<bool> {
+        match self.function.expressions[expression] {
+            Expression::Literal(Literal::Bool(value)) => Some(value),
+            Expression::Constant(constant) => self.constants.get(&constant).copied(),
+            Expression::Unary { op: UnaryOperator::LogicalNot, expr } => self.value(expr).map(|value| !value),
+            Expression::Load { pointer } => self.variables.get(&self.variable(pointer)?).copied(),
+            _ => None,
+        }
     }
 }
 
@@ -109,6 +177,9 @@ mod tests {
                 while NOT_NEEDED { out[1] = costly(2.0); }
                 switch id.y { case 1u: { if NEEDED { out[2] = cheap(1.0); } } default: {} }
                 if id.y > 0u { if NOT_NEEDED { out[3] = costly(1.0); } }
+                if id.z > 0u && NOT_NEEDED && id.y > 1u { out[3] = costly(1.0); }
+                if NOT_NEEDED && (id.z > 1u || !NEEDED) { out[3] = costly(1.0); }
+                if !(NEEDED || id.z > 2u) { out[3] = costly(1.0); } else if !NEEDED { out[3] = costly(1.0); }
                 if NEEDED { break; }
                 let named = costly(0.0);
                 out[4] = named;

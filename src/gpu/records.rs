@@ -121,14 +121,12 @@ pub struct ItemRecord {
     pub ratio: f32,
     /// How far versions of it may lie from each other.
     pub spread: f32,
-    /// Among the vectors of lenses, or `u32::MAX`: the planes of its triangles.
+    /// Among the words of lenses, or `u32::MAX`: which of its triangles have their depths from their planes.
     pub planes: u32,
     /// See `cut_data::CutWords`.
     pub group: u32,
     pub roles: u32,
     pub lids: u32,
-    /// Among the words of lenses, or `u32::MAX`: what of its triangles lies in planes with others.
-    pub in_plane: u32,
     /// Where what lies across the edges of its triangles starts, or `u32::MAX`.
     pub across: u32,
 }

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::bindings;
-use super::coincident_data;
 use super::cut_data;
 use super::draws::{self, Draw, Skip};
 use super::frame::{self, FrameShape, Place, Sample};
@@ -12,7 +11,7 @@ use super::job::{CapSteps, ComputeSteps, ExplainPass, Groups, Job, ResolvePipeli
 use super::lens_data::LensData;
 use super::pipelines::{PipelineStore, Pipelines, Program};
 use super::plan_group::{PlanContents, PlanGroup};
-use super::planes;
+use super::planes::Planes;
 use super::records::FrameRecord;
 use super::room::COUNTERS;
 use super::screen_job::ScreenJob;
@@ -217,8 +216,8 @@ impl Renderer {
         if plan.scene != scene.id {
             return Err(Error::OtherScene { what: "the one that is drawn" });
         }
-        let large = planes::large(scene, plan);
-        let needs = Needs::of(scene, plan, &large);
+        let planes = Planes::new(scene, plan, &self.scene);
+        let needs = Needs::of(scene, plan, !planes.is_empty());
         // Maps count layers, and peeling goes from one to the next, whether the picture asks for them or not.
         let cuts_layers = needs.layers || options.aovs || options.engine == Engine::Peel;
         let words = needs.set_words;
@@ -252,12 +251,11 @@ impl Renderer {
             .transpose()?;
         let mut lenses = LensData::new(plan, words, &tiles.cells, room.crossings);
         let cuts = cut_data::push_cuts(scene, plan, &self.scene, &mut lenses.parts.words);
-        let in_planes = coincident_data::push_in_planes(plan, &mut lenses.parts.words);
-        let planes = planes::push(scene, plan, &large, &mut lenses.parts.vectors);
+        let plane_words = planes.push(&mut lenses.parts.words);
         let PlanGroup { group, items } = PlanContents {
             plan,
             frames: &frames,
-            items: &ItemData::new(scene, plan, &self.scene, words, &cuts, &planes, &in_planes),
+            items: &ItemData::new(scene, plan, &self.scene, words, &cuts, &plane_words),
             lenses: &lenses,
             tiles: &tiles.words,
         }
@@ -281,7 +279,7 @@ impl Renderer {
                     return (Vec::new(), None, layers);
                 }
                 let program = program_of(options.engine, work.after().is_some());
-                let draws = self.draws(scene, plan, &window, (skip, &large), program, &pipelines);
+                let draws = self.draws(scene, plan, &window, (skip, &planes), program, &pipelines);
                 let caps = needs.caps.then(|| {
                     let lids = cut_data::lid_draws(scene, plan, &window);
                     CapSteps {
@@ -349,11 +347,11 @@ impl Renderer {
         scene: &Scene,
         plan: &Plan,
         window: &Window,
-        (skip, large): (Skip, &[bool]),
+        (skip, planes): (Skip, &Planes),
         program: impl Fn(&Draw) -> Program,
         pipelines: &Pipelines,
     ) -> Vec<(Draw, wgpu::RenderPipeline)> {
-        draws::draws(scene, plan, window, &self.scene, skip, large)
+        draws::draws(scene, plan, window, &self.scene, skip, planes)
             .into_iter()
             .map(|draw| {
                 let pipeline = pipelines.draw(&self.store, program(&draw), draw.culling);

@@ -55,14 +55,14 @@ impl Module {
 /// Where rays cross lens volumes.
 const VOLUMES: &[&str] = &[PLANE, PART, ROLES, MESH, PROGRAM];
 /// Who acts on a fragment.
-const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, COINCIDENT, GEOMETRY, STEPS, MOVED, WALK];
+const CLASSIFYING: &[&str] = &[SET, ASKED, LAYER_LOOKUP, PLANES, GEOMETRY, STEPS, MOVED, WALK];
 /// What a fragment looks like.
 const SHADING: &[&str] = &[CLOSING, BOUNDARY, CAPS, TEXTURE, SOFT, STACK, CUSTOM, SHADE, FRAGMENTS];
 
 const COMMON: &str = include_str!("../../shaders/gpu/common.wgsl");
 const SET: &str = include_str!("../../shaders/gpu/set.wgsl");
 const LAYER_LOOKUP: &str = include_str!("../../shaders/gpu/layer_lookup.wgsl");
-const COINCIDENT: &str = include_str!("../../shaders/gpu/coincident.wgsl");
+const PLANES: &str = include_str!("../../shaders/gpu/planes.wgsl");
 const GEOMETRY: &str = include_str!("../../shaders/gpu/geometry.wgsl");
 const PART: &str = include_str!("../../shaders/gpu/part.wgsl");
 const ROLES: &str = include_str!("../../shaders/gpu/roles.wgsl");
@@ -107,7 +107,7 @@ pub fn source(module: Module, needs: &Needs, custom: &str) -> String {
         text += custom;
     }
     if module == Module::Visibility {
-        text += if needs.versions || needs.large || needs.wide { KEPT_VERSIONS } else { KEPT };
+        text += if needs.versions || needs.wide { KEPT_VERSIONS } else { KEPT };
     }
     for part in module.parts().iter().copied().flatten() {
         text += part;

@@ -77,7 +77,7 @@ impl Lists {
         if across.is_empty() {
             return NONE;
         }
-        let first: usize = mesh.primitives[..number].iter().map(|other| other.positions.len()).sum();
+        let first = mesh.primitives[number].first_vertex as usize;
         let start = self.numbers.len() as u32;
         let mut others: HashMap<u32, u32> = HashMap::new();
         for number in drawn {

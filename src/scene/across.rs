@@ -94,16 +94,20 @@ const VERTEX: u64 = 64;
 const MOST_AT_AN_EDGE: usize = 16;
 
 impl Mesh {
-    /// The position of a vertex, counted through all primitives.
+    /// The position of a vertex, counted through all primitives, where a filter has asked for its edges.
     pub fn vertex(&self, number: u32) -> Option<Vec3> {
-        let mut rest = number as usize;
-        for primitive in &self.primitives {
-            match primitive.positions.get(rest) {
-                Some(position) => return Some(*position),
-                None => rest -= primitive.positions.len(),
-            }
+        // Of primitives without vertices the next begins where they do.
+        let behind = self.primitives.partition_point(|own| own.first_vertex <= number);
+        let primitive = &self.primitives[behind.checked_sub(1)?];
+        primitive.positions.get((number - primitive.first_vertex) as usize).copied()
+    }
+
+    fn number_vertices(&mut self) {
+        let mut next = 0;
+        for primitive in &mut self.primitives {
+            primitive.first_vertex = next;
+            next += primitive.positions.len() as u32;
         }
-        None
     }
 }
 
@@ -128,6 +132,7 @@ impl Model {
         budget.take(kept + passing, what)?;
         let all: Vec<Vec<Version>> = drawn.par_iter().map(|mesh| versions(&self.meshes[*mesh])).collect();
         for (mesh, versions) in drawn.into_iter().zip(all) {
+            self.meshes[mesh].number_vertices();
             for Version { primitive, number, across } in versions {
                 let primitive = &mut self.meshes[mesh].primitives[primitive];
                 match number.checked_sub(1) {

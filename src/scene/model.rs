@@ -80,6 +80,8 @@ pub struct Primitive {
     pub simplified: Vec<Simplified>,
     /// What lies across the edges of each triangle, where a filter has asked for it; else empty.
     pub across: Vec<Edges>,
+    /// The number of its first vertex through all primitives of its mesh, where a filter has asked for its edges.
+    pub first_vertex: u32,
     /// Into [`Model::materials`].
     pub material: usize,
 }

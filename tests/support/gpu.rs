@@ -25,7 +25,7 @@ pub fn is_ignored() -> bool {
 
 /// What plans have in common that need the same shaders, however large triangles are.
 pub fn needs(opened: &Opened) -> Needs {
-    Needs::of(&opened.scene, &opened.plan, &[])
+    Needs::of(&opened.scene, &opened.plan, !opened.plan.coincident.is_empty())
 }
 
 /// The picture with its AOVs.

@@ -131,6 +131,7 @@ fn primitive(
         triangles,
         simplified: Vec::new(),
         across: Vec::new(),
+        first_vertex: 0,
     }))
 }
 
