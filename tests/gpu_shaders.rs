@@ -15,6 +15,7 @@ const LITTLE: Needs = Needs {
     set_words: 1,
     part_words: 1,
     lenses: false,
+    rules: false,
     layers: false,
     taken_away: false,
     compounds: false,
@@ -42,6 +43,7 @@ const LITTLE: Needs = Needs {
 const TWO_WORDS: Needs = Needs { set_words: 2, lenses: true, ..LITTLE };
 const TWO_WORDS_OF_LAYERS: Needs = Needs { layers: true, ..TWO_WORDS };
 const MOST: Needs = Needs {
+    rules: true,
     set_words: 12,
     part_words: 3,
     lenses: true,

@@ -1,7 +1,7 @@
 // What every pass shares: the records of a frame, the scene's buffers, and the ray of a pixel.
 // Put in front of this file when it is assembled: `WORDS`, the number of 32-bit words of a set of lenses, `PART_WORDS`,
 // that of a set of one lens's parts, and `LIGHTS`, the number of lights; and flags, see `Needs`: whether there are lenses
-// or rules (`LENSES`), rays are cut into layers (`LAYERS`), some lens takes something away or shows something
+// or rules (`LENSES`), there are rules (`RULES`), rays are cut into layers (`LAYERS`), some lens takes something away or shows something
 // (`TAKEN_AWAY`), some lens has several parts or a mesh (`COMPOUNDS`), which forms parts have (`SPHERES`, `CONES`,
 // `CAPSULES`, `HALF_SPACES`), some lens moves content (`MOVERS`) or closes what it cuts (`CAPS`), is soft (`SOFT`), has a
 // surface (`GLASS`) or one with a line where it meets the scene (`CONTACT`), something may be seen through something else

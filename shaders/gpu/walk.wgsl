@@ -35,9 +35,11 @@ fn applying_word(item: u32, around: Set, word: u32) -> u32 {
 
 // What the lenses do where the pixel's ray meets an item at a depth, inside the lenses `here`.
 fn walk(item: u32, ray: PixelRay, depth: f32, here: Set) -> Verdict {
-    let rule = rule_for(item, here);
-    if rule != NONE {
-        return rule_verdict(item, rule, here);
+    if RULES {
+        let rule = rule_for(item, here);
+        if rule != NONE {
+            return rule_verdict(item, rule, here);
+        }
     }
     var verdict = Verdict(Set(), Set(), false, 1.0, false, false);
     var is_decided = false;

@@ -20,6 +20,8 @@ pub struct Needs {
     pub part_words: u32,
     /// There are lenses or rules.
     pub lenses: bool,
+    /// There are rules.
+    pub rules: bool,
     /// Rays are cut into layers, as a pixel may ask for the lenses around many depths. Else fragments ask the lenses of their
     /// tile themselves.
     pub layers: bool,
@@ -88,6 +90,7 @@ impl Needs {
             set_words: words(plan.lenses.len() + plan.rules.len()),
             part_words: words(parts.chain(names).max().unwrap_or(1)),
             lenses: !plan.lenses.is_empty() || !plan.rules.is_empty(),
+            rules: !plan.rules.is_empty(),
             layers: asks_often,
             taken_away,
             compounds,
@@ -161,6 +164,7 @@ impl Needs {
         let Self { set_words, part_words, lights, channels, .. } = self;
         let flags = [
             ("LENSES", self.lenses),
+            ("RULES", self.rules),
             ("LAYERS", self.layers),
             ("TAKEN_AWAY", self.taken_away),
             ("COMPOUNDS", self.compounds),

@@ -15,18 +15,23 @@ use naga::{
 pub fn pruned(mut module: Module, entries: &[&str]) -> Module {
     module.entry_points.retain(|entry| entries.contains(&entry.name.as_str()));
     let constants = known_constants(&module);
-    let entries = module.entry_points.iter_mut().map(|entry| &mut entry.function);
-    for function in module.functions.iter_mut().map(|(_, function)| function).chain(entries) {
+    let mut results = HashMap::new();
+    let entries = module.entry_points.iter_mut().map(|entry| (None, &mut entry.function));
+    // Functions stand after those that they call.
+    let functions = module.functions.iter_mut().map(|(handle, function)| (Some(handle), function));
+    for (handle, function) in functions.chain(entries) {
         // What is ruled out may decide what a variable is, and that rule out more.
         loop {
-            let known = Known::new(function, &constants);
+            let known = Known::new(function, &constants, &results);
             let before = known.variables.len();
             let pruned = pruned_block(function.body.clone(), &|condition| known.value(condition));
             function.body = pruned;
-            if Known::new(function, &constants).variables.len() == before {
+            if Known::new(function, &constants, &results).variables.len() == before {
                 break;
             }
         }
+        let known = Known::new(function, &constants, &results);
+        results.extend(handle.zip(known.result()));
         // A name would keep what it names, and the function that it is the result of.
         function.named_expressions.clear();
     }
@@ -46,14 +51,20 @@ fn known_constants(module: &Module) -> HashMap<Handle<Constant>, bool> {
 struct Known<'a> {
     function: &'a Function,
     constants: &'a HashMap<Handle<Constant>, bool>,
+    /// Of functions that return one value alone.
+    results: &'a HashMap<Handle<Function>, bool>,
     /// The front end keeps the results of `&&` and `||` in variables without names, which are read after they are written:
     /// those to which one value alone is written.
     variables: HashMap<Handle<LocalVariable>, bool>,
 }
 
 impl<'a> Known<'a> {
-    fn new(function: &'a Function, constants: &'a HashMap<Handle<Constant>, bool>) -> Self {
-        let mut known = Self { function, constants, variables: HashMap::new() };
+    fn new(
+        function: &'a Function,
+        constants: &'a HashMap<Handle<Constant>, bool>,
+        results: &'a HashMap<Handle<Function>, bool>,
+    ) -> Self {
+        let mut known = Self { function, constants, results, variables: HashMap::new() };
         // Of one may follow another.
         loop {
             let mut written = HashMap::new();
@@ -79,15 +90,24 @@ impl<'a> Known<'a> {
                         .and_modify(|known| *known = known.filter(|_| *known == value))
                         .or_insert(value);
                 }
-                Statement::If { accept, reject, .. } => {
-                    [accept, reject].into_iter().for_each(|own| self.gather(own, written));
-                }
-                Statement::Block(inner) => self.gather(inner, written),
-                Statement::Switch { cases, .. } => cases.iter().for_each(|case| self.gather(&case.body, written)),
-                Statement::Loop { body, continuing, .. } => {
-                    [body, continuing].into_iter().for_each(|own| self.gather(own, written));
-                }
-                _ => {}
+                other => inner_blocks(other).for_each(|inner| self.gather(inner, written)),
+            }
+        }
+    }
+
+    /// What the function returns, if that is always the same.
+    fn result(&self) -> Option<bool> {
+        let mut returned = Vec::new();
+        self.returned(&self.function.body, &mut returned);
+        let first = *returned.first()?;
+        first.filter(|_| returned.iter().all(|value| *value == first))
+    }
+
+    fn returned(&self, block: &Block, values: &mut Vec<Option<bool>>) {
+        for statement in block {
+            match statement {
+                Statement::Return { value } => values.push(value.and_then(|value| self.value(value))),
+                other => inner_blocks(other).for_each(|inner| self.returned(inner, values)),
             }
         }
     }
@@ -107,10 +127,23 @@ impl<'a> Known<'a> {
             Expression::Literal(Literal::Bool(value)) => Some(value),
             Expression::Constant(constant) => self.constants.get(&constant).copied(),
             Expression::Unary { op: UnaryOperator::LogicalNot, expr } => self.value(expr).map(|value| !value),
+            Expression::CallResult(function) => self.results.get(&function).copied(),
             Expression::Load { pointer } => self.variables.get(&self.variable(pointer)?).copied(),
             _ => None,
         }
     }
+}
+
+/// The blocks that a statement holds.
+fn inner_blocks(statement: &Statement) -> impl Iterator<Item = &Block> {
+    let (two, cases): ([Option<&Block>; 2], &[SwitchCase]) = match statement {
+        Statement::If { accept, reject, .. } => ([Some(accept), Some(reject)], &[]),
+        Statement::Loop { body, continuing, .. } => ([Some(body), Some(continuing)], &[]),
+        Statement::Block(inner) => ([Some(inner), None], &[]),
+        Statement::Switch { cases, .. } => ([None, None], cases),
+        _ => ([None, None], &[]),
+    };
+    two.into_iter().flatten().chain(cases.iter().map(|case| &case.body))
 }
 
 fn pruned_block(block: Block, known: &impl Fn(Handle<Expression>) -> Option<bool>) -> Block {
@@ -166,6 +199,7 @@ mod tests {
         const NEEDED: bool = true;
         const NOT_NEEDED: bool = false;
         @group(0) @binding(0) var<storage, read_write> out: array<f32>;
+        fn never(x: u32) -> bool { return NOT_NEEDED && x > 3u; }
         fn costly(x: f32) -> f32 { return sin(x); }
         fn cheap(x: f32) -> f32 {
             if NEEDED { return x + 1.0; }
@@ -181,6 +215,7 @@ mod tests {
                 if NOT_NEEDED && (id.z > 1u || !NEEDED) { out[3] = costly(1.0); }
                 if !(NEEDED || id.z > 2u) { out[3] = costly(1.0); } else if !NEEDED { out[3] = costly(1.0); }
                 if NEEDED { break; }
+                if never(id.x) { out[3] = costly(1.0); }
                 let named = costly(0.0);
                 out[4] = named;
             }
@@ -197,7 +232,7 @@ mod tests {
     #[test]
     fn what_never_runs_is_gone_and_the_rest_is_valid() {
         let module = pruned(parsed(TEXT), &["run"]);
-        assert_eq!(names(&module), ["cheap"]);
+        assert_eq!(names(&module), ["never", "cheap"]);
         let all = naga::valid::ValidationFlags::all();
         naga::valid::Validator::new(all, naga::valid::Capabilities::empty()).validate(&module).expect("valid");
     }
@@ -205,7 +240,7 @@ mod tests {
     #[test]
     fn what_may_run_stays() {
         let text = TEXT.replace("const NOT_NEEDED: bool = false;", "@id(0) override NOT_NEEDED: bool = false;");
-        assert_eq!(names(&pruned(parsed(&text), &["run"])), ["costly", "cheap"]);
+        assert_eq!(names(&pruned(parsed(&text), &["run"])), ["never", "costly", "cheap"]);
         assert!(names(&pruned(parsed(&text), &[])).is_empty());
     }
 }
