@@ -186,6 +186,8 @@ struct Step {
 
 const LENS_GLASS: u32 = 1u;
 const LENS_BY_OBJECT: u32 = 2u;
+// All of its parts in turn are joined in one way.
+const LENS_FLAT: u32 = 4u;
 
 // A lens or an overlap rule: twin of `records::LensRecord`, and the lens's mask.
 struct Lens {

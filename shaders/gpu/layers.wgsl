@@ -38,6 +38,65 @@ fn put_boundary(g: ptr<function, Gathering>, depth: f32, number: u32) {
     (*g).count += 1u;
 }
 
+// The same without its order, for `sort_boundaries`.
+fn append_boundary(g: ptr<function, Gathering>, depth: f32, number: u32) {
+    (*g).count += 1u;
+    write_slot((*g).at, (*g).first + (*g).count, vec2u(bitcast<u32>(depth), number));
+}
+
+fn read_slot(at: u32, slot: u32) -> vec2u {
+    let here = slot_at(at, slot);
+    return vec2u(layers[here], layers[here + 1u]);
+}
+
+fn write_slot(at: u32, slot: u32, boundary: vec2u) {
+    let here = slot_at(at, slot);
+    layers[here] = boundary.x;
+    layers[here + 1u] = boundary.y;
+}
+
+fn is_sooner(a: vec2u, b: vec2u) -> bool {
+    let p = bitcast<f32>(a.x);
+    let q = bitcast<f32>(b.x);
+    return p < q || (p == q && a.y < b.y);
+}
+
+// Heapsort: a lens of a thousand parts may have as many boundaries on a ray.
+fn sort_boundaries(g: Gathering) {
+    var unsorted = g.count;
+    var root = g.count / 2u;
+    while unsorted > 1u {
+        var moved: vec2u;
+        if root > 0u {
+            moved = read_slot(g.at, g.first + root);
+            root -= 1u;
+        } else {
+            // The latest of the heap goes behind it.
+            moved = read_slot(g.at, g.first + unsorted);
+            write_slot(g.at, g.first + unsorted, read_slot(g.at, g.first + 1u));
+            unsorted -= 1u;
+        }
+        var hole = root + 1u;
+        while 2u * hole <= unsorted {
+            var child = 2u * hole;
+            var later = read_slot(g.at, g.first + child);
+            if child < unsorted {
+                let other = read_slot(g.at, g.first + child + 1u);
+                if is_sooner(later, other) {
+                    child += 1u;
+                    later = other;
+                }
+            }
+            if !is_sooner(moved, later) {
+                break;
+            }
+            write_slot(g.at, g.first + hole, later);
+            hole = child;
+        }
+        write_slot(g.at, g.first + hole, moved);
+    }
+}
+
 fn put_layer(at: u32, layer: u32, depth: f32, around: Set) {
     let here = slot_at(at, layer);
     layers[here] = bitcast<u32>(depth);
@@ -74,7 +133,7 @@ fn put_crossing(g: ptr<function, Gathering>, number: u32, depth: f32) {
     if depth <= frame.near {
         cross_part(number);
     } else if depth < frame.far {
-        put_boundary(g, depth, number);
+        append_boundary(g, depth, number);
     }
 }
 
@@ -117,7 +176,7 @@ fn put_part(g: ptr<function, Gathering>, asked: AskedPart, number: u32, ray: Len
         let was_enclosed = is_enclosed(around);
         around = also_crossed(around, layers[at + 1u]);
         if was_enclosed != is_enclosed(around) {
-            put_boundary(g, bitcast<f32>(layers[at]), number);
+            append_boundary(g, bitcast<f32>(layers[at]), number);
         }
     }
     if count > parts[part].crossing_room {
@@ -149,7 +208,13 @@ fn put_compound(
         put_part(&own, asked, asked.part - lenses[rank].first_part, ray);
         end += 1u;
     }
-    var held = program_holds(rank);
+    sort_boundaries(own);
+    let is_flat = (lenses[rank].flags & LENS_FLAT) != 0u;
+    var met = 0u;
+    if is_flat {
+        met = met_parts(rank);
+    }
+    var held = holds_now(rank, is_flat, met);
     if held {
         flip(around, rank);
     }
@@ -159,16 +224,27 @@ fn put_compound(
     while next <= last {
         let depth = bitcast<f32>(layers[slot_at(own.at, next)]);
         while next <= last && !starts_boundary(depth, bitcast<f32>(layers[slot_at(own.at, next)])) {
-            cross_part(layers[slot_at(own.at, next) + 1u]);
+            let part = layers[slot_at(own.at, next) + 1u];
+            cross_part(part);
+            if is_flat {
+                met = select(met - 1u, met + 1u, is_met(rank, part));
+            }
             next += 1u;
         }
-        let holds = program_holds(rank);
+        let holds = holds_now(rank, is_flat, met);
         if holds != held {
             put_boundary(g, depth, rank);
             held = holds;
         }
     }
     return end - entry;
+}
+
+fn holds_now(rank: u32, is_flat: bool, met: u32) -> bool {
+    if is_flat {
+        return flat_holds(rank, met);
+    }
+    return program_holds(rank);
 }
 
 @compute @workgroup_size(16, 16)

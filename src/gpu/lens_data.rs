@@ -2,7 +2,7 @@
 
 use super::cells::Cells;
 use super::part_data::PartData;
-use super::program::{condition, program};
+use super::program::{condition, is_flat, program};
 use super::records::{self, LensRecord, words_of};
 use crate::lens::Tree;
 use crate::plan::{Lens, LensSet, Plan, Rule};
@@ -74,6 +74,9 @@ impl LensData {
         }
         if lens.by == By::Object {
             record.flags |= records::LENS_BY_OBJECT;
+        }
+        if is_flat(&lens.volume.tree) {
+            record.flags |= records::LENS_FLAT;
         }
         record
     }

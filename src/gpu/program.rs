@@ -22,6 +22,12 @@ pub fn condition(test: &Test) -> (Vec<LensSet>, Vec<u32>) {
     (names, words)
 }
 
+/// Whether a tree is all its parts in turn, joined in one way: then a count of them tells what its program does.
+pub fn is_flat(tree: &Tree) -> bool {
+    let (Tree::Union(list) | Tree::Intersection(list) | Tree::Difference(list)) = tree else { return false };
+    list.len() > 1 && list.iter().enumerate().all(|(number, part)| *part == Tree::Part(number))
+}
+
 struct Code {
     words: Vec<u32>,
     /// How many values it holds at once.
@@ -129,6 +135,26 @@ mod tests {
             let met = |(i, name): (usize, &LensSet)| u32::from(!(*name & set).is_empty()) << i;
             assert_eq!(run(&words, names.iter().enumerate().map(met).sum()), test.holds(set), "{set:?}");
         }
+    }
+
+    /// What the shader does with a flat lens.
+    #[test]
+    fn counts_say_what_flat_trees_say() {
+        let parts = || (0..5).map(Tree::Part).collect();
+        for tree in [Tree::Union(parts()), Tree::Intersection(parts()), Tree::Difference(parts())] {
+            assert!(is_flat(&tree));
+            let words = program(&tree);
+            let token = |part: usize| words[(2 * part).saturating_sub(1)];
+            for inside in 0..32u32 {
+                let is_met = |part: &usize| (inside >> part & 1 == 1) == (token(*part) & 3 == INSIDE);
+                let met = (0..5).filter(is_met).count();
+                let needed = if words[2] & 3 == BOTH { 5 } else { 1 };
+                assert_eq!(met >= needed, tree.holds(&|part| inside >> part & 1 == 1), "{tree:?} {inside:b}");
+            }
+        }
+        assert!(!is_flat(&Tree::Part(0)));
+        assert!(!is_flat(&Tree::Union(vec![Tree::Part(1), Tree::Part(0)])));
+        assert!(!is_flat(&Tree::Union(vec![Tree::Part(0), Tree::Union(parts())])));
     }
 
     #[test]

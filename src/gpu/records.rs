@@ -20,6 +20,7 @@ pub const FORM_MESH: u32 = 5;
 
 pub const LENS_GLASS: u32 = 1;
 pub const LENS_BY_OBJECT: u32 = 2;
+pub const LENS_FLAT: u32 = 4;
 
 pub const PART_FLAT: u32 = 1;
 pub const PART_PARITY: u32 = 2;

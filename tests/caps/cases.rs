@@ -12,7 +12,7 @@ use crate::{Draw, SHARE, cap_pixels, has_area, maps};
 
 pub type Check = fn(Draw) -> Result<(), String>;
 
-pub const ALL: [(&str, Check); 25] = [
+pub const ALL: [(&str, Check); 27] = [
     ("a-ball-cut-by-a-plane", plane),
     ("a-ball-cut-by-a-plane-in-perspective", plane_in_perspective),
     ("a-ball-cut-by-a-sphere", sphere),
@@ -38,7 +38,14 @@ pub const ALL: [(&str, Check); 25] = [
     ("lenses-below-the-eraser-leave-its-cap", lower_lens),
     ("own-colours-of-the-nearest-surface", own_colors),
     ("edges-between-caps-of-nodes", edges_between),
+    ("the-outline-of-a-cap", outline),
+    ("outlines-between-caps-of-nodes", outline_between),
 ];
+
+/// What both engines draw: they find caps in one way, and differ in the layers around them.
+#[cfg(feature = "gpu")]
+pub const PEELED: [&str; 4] =
+    ["a-ball-cut-by-a-plane", "two-erasers-that-overlap", "a-cut-magnified", "balls-in-balls"];
 
 /// Pixels of a picture's side.
 pub const SIDE: u32 = 500;
@@ -384,6 +391,51 @@ fn edges_between(draw: Draw) -> Result<(), String> {
         let color = color_at(&frame, 0.0, 0.2);
         if (color[0] < 60) != is_line || color_at(&frame, 0.3, 0.2)[0] < 250 {
             return Err(format!("{color:?} at the border, where a line is {is_line}"));
+        }
+    }
+    Ok(())
+}
+
+/// A ring within the cap; what lies beside the cap is not drawn on, and a lens that is soft fades nothing of it.
+fn outline(draw: Draw) -> Result<(), String> {
+    const WIDTH: f64 = 4.0;
+    let eraser = |outline: &str| format!("{{ erase = {{ cap = \"white\"{outline} }} }}");
+    let ring = eraser(&format!(", outline = {{ width = {WIDTH}, color = \"#ff0000\" }}"));
+    let radius = pixels(1.0 - 0.09).sqrt();
+    let expected = PI * (radius * radius - (radius - WIDTH).powi(2));
+    let is_red = |color: &&[u8; 4]| color[0] > 150 && color[1] < 90;
+    for (lenses, expected) in
+        [(above(0.3, &ring), expected), (above(0.3, &ring) + "soft = 0.5\n", expected), (above(0.3, &eraser("")), 0.0)]
+    {
+        let frame = draw(&planned(one_ball(), SIDE, ABOVE, &lenses))?;
+        let red = frame.pixels.iter().filter(is_red).count() as f64;
+        if (red - expected).abs() > 0.1 * expected {
+            return Err(format!("{red} pixels of the line, not {expected}"));
+        }
+        let aovs = maps(&frame)?;
+        let beside = |(at, color): (usize, &[u8; 4])| cap_maker(aovs.triangles[at]).is_none() && is_red(&color);
+        if frame.pixels.iter().enumerate().any(beside) {
+            return Err("the line lies beside the cap".into());
+        }
+    }
+    Ok(())
+}
+
+/// Where caps of two parts meet, each has half of the line; within a part there is none.
+fn outline_between(draw: Draw) -> Result<(), String> {
+    let part = |x: f32| cuboid(Vec3::new(x, 0.0, 0.0), Vec3::new(0.5, 1.0, 0.9));
+    let cut = above(0.2, "{ erase = { cap = \"white\", outline = { width = 6, color = \"#ff0000\" } } }");
+    for (parts, is_line) in [
+        (vec![("left", vec![part(-0.5)]), ("right", vec![part(0.5)])], true),
+        (vec![("both", vec![with(part(-0.5), part(0.5))])], false),
+    ] {
+        let frame = draw(&planned(parts, SIDE, ABOVE, &cut))?;
+        let pixel = HEIGHT / f64::from(SIDE);
+        for (x, is_on_line) in [(-2.0, is_line), (2.0, is_line), (-8.0, false), (8.0, false)] {
+            let color = color_at(&frame, x * pixel, 0.2);
+            if (color[1] < 90) != is_on_line {
+                return Err(format!("{color:?} {x} pixels from the border, where a line is {is_on_line}"));
+            }
         }
     }
     Ok(())
