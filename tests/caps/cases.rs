@@ -431,7 +431,7 @@ fn outline_between(draw: Draw) -> Result<(), String> {
     ] {
         let frame = draw(&planned(parts, SIDE, ABOVE, &cut))?;
         let pixel = HEIGHT / f64::from(SIDE);
-        for (x, is_on_line) in [(-2.0, is_line), (2.0, is_line), (-8.0, false), (8.0, false)] {
+        for (x, is_on_line) in [(-1.5, is_line), (1.5, is_line), (-8.0, false), (8.0, false)] {
             let color = color_at(&frame, x * pixel, 0.2);
             if (color[1] < 90) != is_on_line {
                 return Err(format!("{color:?} {x} pixels from the border, where a line is {is_on_line}"));
