@@ -218,7 +218,7 @@ fn bell_sums(all: &[Weighed], width: usize, reach: usize, turn: f64) -> Vec<Weig
     let mut rows = vec![(Vec4::ZERO, 0.0); all.len()];
     rows.par_chunks_mut(width).zip(all.par_chunks(width)).for_each(|(sums, row)| {
         let mut window = Bell::new(reach, turn);
-        row[..reach.min(width)].iter().for_each(|place| window.move_on(None, Some(place)));
+        (0..reach).for_each(|at| window.move_on(None, row.get(at)));
         for (at, sum) in sums.iter_mut().enumerate() {
             window.move_on(at.checked_sub(reach + 1).map(|left| &row[left]), row.get(at + reach));
             *sum = window.sum();
@@ -234,8 +234,9 @@ fn bell_sums(all: &[Weighed], width: usize, reach: usize, turn: f64) -> Vec<Weig
             let columns = first..(first + STRIPE).min(width);
             let place = |y: usize, x: usize| &rows[y * width + x];
             let mut windows = vec![Bell::new(reach, turn); columns.len()];
-            for y in 0..reach.min(height) {
-                windows.iter_mut().zip(columns.clone()).for_each(|(window, x)| window.move_on(None, Some(place(y, x))));
+            for y in 0..reach {
+                let enters = |x: usize| (y < height).then(|| place(y, x));
+                windows.iter_mut().zip(columns.clone()).for_each(|(window, x)| window.move_on(None, enters(x)));
             }
             let mut sums = Vec::with_capacity(columns.len() * height);
             for y in 0..height {

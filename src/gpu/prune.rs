@@ -35,6 +35,8 @@ pub fn pruned(mut module: Module, entries: &[&str]) -> Module {
         // A name would keep what it names, and the function that it is the result of.
         function.named_expressions.clear();
     }
+    // So would that of a constant: what is not used says nothing.
+    module.constants.iter_mut().for_each(|(_, constant)| constant.name = None);
     compact(&mut module, KeepUnused::No);
     module
 }
@@ -214,8 +216,8 @@ mod tests {
                 if id.z > 0u && NOT_NEEDED && id.y > 1u { out[3] = costly(1.0); }
                 if NOT_NEEDED && (id.z > 1u || !NEEDED) { out[3] = costly(1.0); }
                 if !(NEEDED || id.z > 2u) { out[3] = costly(1.0); } else if !NEEDED { out[3] = costly(1.0); }
-                if NEEDED { break; }
                 if never(id.x) { out[3] = costly(1.0); }
+                if NEEDED { break; }
                 let named = costly(0.0);
                 out[4] = named;
             }
