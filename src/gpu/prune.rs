@@ -7,7 +7,8 @@ use std::collections::HashMap;
 
 use naga::compact::{KeepUnused, compact};
 use naga::{
-    Block, Constant, Expression, Function, Handle, Literal, LocalVariable, Module, Statement, SwitchCase, UnaryOperator,
+    Block, Constant, Expression, Function, Handle, Literal, LocalVariable, Module, Span, Statement, SwitchCase,
+    UnaryOperator,
 };
 
 /// The same shader with these of its entry points alone, without branches that constants rule out, and without what only
@@ -150,7 +151,7 @@ fn inner_blocks(statement: &Statement) -> impl Iterator<Item = &Block> {
 
 fn pruned_block(block: Block, known: &impl Fn(Handle<Expression>) -> Option<bool>) -> Block {
     let mut kept = Block::new();
-    for (statement, span) in block.span_into_iter() {
+    for (statement, _) in block.span_into_iter() {
         let statement = match statement {
             Statement::If { condition, accept, reject } => match known(condition) {
                 Some(holds) => Statement::Block(pruned_block(if holds { accept } else { reject }, known)),
@@ -175,7 +176,8 @@ fn pruned_block(block: Block, known: &impl Fn(Handle<Expression>) -> Option<bool
         let ends = ends(&statement);
         match statement {
             Statement::Block(inner) => kept.extend_block(inner),
-            other => kept.push(other, span),
+            // Where it stood in the text tells alike shaders apart.
+            other => kept.push(other, Span::UNDEFINED),
         }
         // Nothing may stand behind it.
         if ends {
